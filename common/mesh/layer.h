@@ -1,0 +1,40 @@
+#pragma once
+
+#include "mesh/mesh.h"
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace multires {
+
+/// What an attribute means; decides how a host stores it and whether frames rotate it.
+enum class AttributeKind { color, quality, texcoord, scalar, point };
+
+/// Per-vertex data that rides on the same pyramid as the positions.
+struct Attribute {
+    AttributeKind kind = AttributeKind::scalar;
+    std::string name;            ///< the host's name of a custom attribute; empty for the built-in ones
+    int width = 1;               ///< color 4 (r,g,b,a in 0..255), quality 1, texcoord 2, scalar 1, point 3
+    std::vector<double> values;  ///< #V by width, row-major
+};
+
+/// One layer of a document, flat. Deleted elements of the host are left out, so vertex i here is the i-th one alive.
+struct Layer {
+    Mesh mesh;
+    std::vector<Attribute> attributes;          ///< those the filter asked for
+    std::vector<std::uint8_t> selected_vertex;  ///< #V, 0 or 1; empty if nothing is selected
+    std::vector<std::uint8_t> selected_face;    ///< #F, 0 or 1; empty if nothing is selected
+    std::vector<std::uint8_t> faux_edges;       ///< #F, bit k = edge (k, k+1) is faux; empty if none is
+};
+
+/// A mesh made of vertices of another one; the host carries all attributes over by these indices.
+struct DerivedMesh {
+    std::string name;                  ///< label of the new layer
+    std::vector<Index> source_vertex;  ///< #V' indices into the input's vertices
+    Faces faces;                       ///< #F' by 3 indices into source_vertex
+    std::vector<Index> source_face;    ///< #F' indices into the input's faces: where face attributes come from
+    std::optional<Positions> positions;  ///< #V' by 3 where they differ from the source vertices'
+};
+
+} // namespace multires
