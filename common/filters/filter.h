@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesh/error.h"
 #include "mesh/layer.h"
 
 #include <functional>
@@ -13,11 +14,6 @@
 /// What every filter gets and gives. A filter is a pure function of a layer and its options: it returns a Result and
 /// never touches the host's document, so that a failure or a cancel leaves everything as it was.
 namespace multires {
-
-/// Wrong input or parameters; the message is for the person at the keyboard and names the parameter or the fault.
-struct InputError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 /// The host's progress callback said stop.
 struct Cancelled : std::runtime_error {

@@ -1,0 +1,12 @@
+#pragma once
+
+#include <stdexcept>
+
+namespace multires {
+
+/// Wrong input or parameters; the message is for the person at the keyboard and names the parameter or the fault.
+struct InputError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+} // namespace multires
