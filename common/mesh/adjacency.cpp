@@ -1,0 +1,244 @@
+#include "mesh/adjacency.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+/// The two other corners of a face, seen from one corner, in the face's orientation.
+struct Wedge {
+    Index from, to;
+};
+
+/// All wedges of all vertices in compressed rows.
+struct Wedges {
+    std::vector<Index> offset;
+    std::vector<Wedge> wedge;
+};
+
+bool repeats(const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
+
+Wedges collect_wedges(const Mesh& mesh) {
+    const std::size_t n = mesh.positions.size();
+    Wedges w;
+    w.offset.assign(n + 1, 0);
+    for (const Face& f : mesh.faces)
+        if (!repeats(f))
+            for (const Index v : f) ++w.offset[v + 1];
+    for (std::size_t i = 0; i < n; ++i) w.offset[i + 1] += w.offset[i];
+    w.wedge.resize(w.offset[n]);
+    std::vector<Index> next(w.offset.begin(), w.offset.end() - 1);
+    for (const Face& f : mesh.faces)
+        if (!repeats(f))
+            for (int k = 0; k < 3; ++k) w.wedge[next[f[k]]++] = {f[(k + 1) % 3], f[(k + 2) % 3]};
+    return w;
+}
+
+/// Chains the wedges of one vertex into a ring, ordering them in place; gives what the neighbourhood is.
+///
+/// Works on unordered wedges so that inconsistent orientation does no harm, but follows the orientation of the first
+/// wedge that starts the ring.
+class Chainer {
+public:
+    RingKind chain(Wedge* wedges, Index count) {
+        if (count == 0) return RingKind::isolated;
+        return chain_oriented(wedges, count) ? kind_of(wedges, count) : chain_unoriented(wedges, count);
+    }
+
+private:
+    /// The common case, consistent orientation and small valence: follow `from` to `to`, in place.
+    static bool chain_oriented(Wedge* w, Index n) {
+        if (n > 32) return false;
+        Index first = 0;  // a wedge whose `from` is nobody's `to` starts an open ring
+        for (Index i = 0; i < n; ++i) {
+            bool entered = false;
+            for (Index j = 0; j < n; ++j) {
+                if (j != i && w[j].from == w[i].from) return false;
+                entered |= w[j].to == w[i].from;
+            }
+            if (!entered) first = i;
+        }
+        std::swap(w[0], w[first]);
+        for (Index i = 1; i < n; ++i) {
+            Index j = i;
+            while (j < n && w[j].from != w[i - 1].to) ++j;
+            if (j == n) return false;
+            std::swap(w[i], w[j]);
+        }
+        for (Index i = 1; i < n; ++i)
+            if (w[i].from == w[n - 1].to) return false;  // runs into its own middle: an edge with three faces
+        return true;
+    }
+
+    static RingKind kind_of(const Wedge* w, Index n) {
+        if (w[n - 1].to != w[0].from) return RingKind::open;
+        return n >= 3 ? RingKind::closed : RingKind::irregular;
+    }
+
+    /// Any orientation and valence: sort the wedge ends, then walk from wedge to wedge over shared neighbours.
+    RingKind chain_unoriented(Wedge* w, Index n) {
+        ends_.clear();
+        for (Index i = 0; i < n; ++i) {
+            ends_.push_back({w[i].from, i});
+            ends_.push_back({w[i].to, i});
+        }
+        std::sort(ends_.begin(), ends_.end());
+        Index start = 0;
+        bool open = false;
+        for (std::size_t i = 0; i < ends_.size();) {
+            std::size_t j = i;
+            while (j < ends_.size() && ends_[j].first == ends_[i].first) ++j;
+            if (j - i > 2) return RingKind::irregular;  // an edge with more than two faces
+            // Of the two ends of an open ring, start at the one its wedge leaves from.
+            if (j - i == 1 && (!open || w[ends_[i].second].from == ends_[i].first)) {
+                start = ends_[i].second;
+                open = true;
+            }
+            i = j;
+        }
+        out_.clear();
+        Wedge current = w[start];
+        if (open && mates(current.from) != 1) std::swap(current.from, current.to);
+        const Index begin = current.from;
+        Index at = start;
+        for (Index step = 0; step < n; ++step) {
+            out_.push_back(current);
+            const Index next = other(current.to, at);
+            if (next < 0) break;
+            at = next;
+            const Index shared = current.to;
+            current = w[next].from == shared ? w[next] : Wedge{w[next].to, w[next].from};
+            if (!open && shared == begin) break;
+        }
+        if (static_cast<Index>(out_.size()) != n) return RingKind::irregular;  // more than one fan
+        std::copy(out_.begin(), out_.end(), w);
+        return kind_of(w, n);
+    }
+
+    Index mates(Index neighbor) const {
+        const auto at = std::lower_bound(ends_.begin(), ends_.end(), std::pair<Index, Index>(neighbor, -1));
+        Index count = 0;
+        for (auto i = at; i != ends_.end() && i->first == neighbor; ++i) ++count;
+        return count;
+    }
+
+    /// The other wedge that ends at the neighbour, -1 if none.
+    Index other(Index neighbor, Index wedge) const {
+        auto i = std::lower_bound(ends_.begin(), ends_.end(), std::pair<Index, Index>(neighbor, -1));
+        for (; i != ends_.end() && i->first == neighbor; ++i)
+            if (i->second != wedge) return i->second;
+        return -1;
+    }
+
+    std::vector<std::pair<Index, Index>> ends_;  // (neighbour, wedge)
+    std::vector<Wedge> out_;
+};
+
+/// Where the neighbour stands in a row, -1 if not.
+Index find_in(const Rings& rings, Index row, Index neighbor) {
+    const Index* r = rings.begin(row);
+    for (Index j = 0; j < rings.size(row); ++j)
+        if (r[j] == neighbor) return j;
+    return -1;
+}
+
+/// The neighbour of `a` beside `b` in a's ring that is not `not_this`, -1 if there is none.
+Index beside(const Rings& rings, Index a, Index b, Index not_this) {
+    const Index j = find_in(rings, a, b), d = rings.size(a);
+    if (j < 0) return -1;
+    const Index* r = rings.begin(a);
+    const bool closed = rings.kind[a] == RingKind::closed;
+    const Index before = j > 0 ? r[j - 1] : closed ? r[d - 1] : -1;
+    const Index after = j + 1 < d ? r[j + 1] : closed ? r[0] : -1;
+    return before == not_this ? after : before;
+}
+
+}  // namespace
+
+Rings vertex_rings(const Mesh& mesh) {
+    Wedges wedges = collect_wedges(mesh);
+    const Index n = static_cast<Index>(mesh.positions.size());
+    Rings rings;
+    rings.kind.resize(n);
+    rings.offset.resize(n + 1);
+#pragma omp parallel
+    {
+        Chainer chainer;
+#pragma omp for schedule(static)
+        for (Index i = 0; i < n; ++i)
+            rings.kind[i] =
+                chainer.chain(wedges.wedge.data() + wedges.offset[i], wedges.offset[i + 1] - wedges.offset[i]);
+    }
+    for (Index i = 0; i < n; ++i) {
+        const Index faces = wedges.offset[i + 1] - wedges.offset[i];
+        const bool has_ring = rings.kind[i] == RingKind::closed || rings.kind[i] == RingKind::open;
+        rings.offset[i + 1] = rings.offset[i] + (has_ring ? faces + (rings.kind[i] == RingKind::open) : 0);
+    }
+    rings.neighbor.resize(rings.offset[n]);
+#pragma omp parallel for schedule(static)
+    for (Index i = 0; i < n; ++i) {
+        const Wedge* w = wedges.wedge.data() + wedges.offset[i];
+        Index* out = rings.neighbor.data() + rings.offset[i];
+        const Index d = rings.size(i);
+        for (Index j = 0; j < d; ++j) out[j] = j < wedges.offset[i + 1] - wedges.offset[i] ? w[j].from : w[j - 1].to;
+    }
+    return rings;
+}
+
+void find_flaps(Rings& rings) {
+    rings.flap.assign(rings.neighbor.size(), -1);
+#pragma omp parallel for schedule(static)
+    for (Index i = 0; i < rings.rows(); ++i) {
+        const Index d = rings.size(i);
+        const Index* r = rings.begin(i);
+        const Index links = rings.kind[i] == RingKind::closed ? d : d - 1;
+        for (Index j = 0; j < links; ++j) {
+            const Index a = r[j], b = r[j + 1 < d ? j + 1 : 0];
+            const Index flap = rings.size(a) > 0 ? beside(rings, a, b, i) : beside(rings, b, a, i);
+            rings.flap[rings.offset[i] + j] = flap;
+        }
+    }
+}
+
+void mark_features_by_angle(Rings& rings, const Positions& positions, double degrees) {
+    const double limit = std::cos(degrees * 3.14159265358979323846 / 180);
+    if (rings.feature.empty()) rings.feature.assign(rings.neighbor.size(), 0);
+    const auto sharp = [&](Index i, Index j) {
+        const Index d = rings.size(i);
+        const bool closed = rings.kind[i] == RingKind::closed;
+        if (!closed && (j == 0 || j == d - 1)) return false;
+        const Index* r = rings.begin(i);
+        const Vec3 p = positions[i], spoke = positions[r[j]] - p;
+        const Vec3 n = (positions[r[(j + d - 1) % d]] - p).cross(spoke);
+        const Vec3 m = spoke.cross(positions[r[(j + 1) % d]] - p);
+        const double size = n.norm() * m.norm();
+        return size > 0 && n.dot(m) < limit * size;
+    };
+    // Both ends must agree to the last bit, so the angle is computed at one of them.
+#pragma omp parallel for schedule(static)
+    for (Index i = 0; i < rings.rows(); ++i)
+        for (Index j = 0; j < rings.size(i); ++j) {
+            const Index other = rings.begin(i)[j];
+            const bool here = i < other || rings.size(other) == 0;
+            rings.feature[rings.offset[i] + j] |= here ? sharp(i, j) : sharp(other, find_in(rings, other, i));
+        }
+}
+
+void mark_features(Rings& rings, const Faces& faces, const std::vector<std::uint8_t>& edges) {
+    if (rings.feature.empty()) rings.feature.assign(rings.neighbor.size(), 0);
+    const auto mark = [&](Index a, Index b) {
+        const Index j = find_in(rings, a, b);
+        if (j < 0) return;
+        const bool end = rings.kind[a] == RingKind::open && (j == 0 || j == rings.size(a) - 1);
+        if (!end) rings.feature[rings.offset[a] + j] = 1;
+    };
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (int k = 0; k < 3; ++k)
+            if (edges[f] >> k & 1) {
+                mark(faces[f][k], faces[f][(k + 1) % 3]);
+                mark(faces[f][(k + 1) % 3], faces[f][k]);
+            }
+}
+
+}  // namespace multires

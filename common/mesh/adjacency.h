@@ -1,0 +1,34 @@
+#pragma once
+
+#include "hierarchy/rings.h"
+#include "mesh/mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace multires {
+
+/// Ordered 1-rings of all vertices of a mesh, row i belonging to vertex i (see Rings).
+///
+/// Faces with a repeated index do not count. A vertex is irregular if one of its edges has more than two faces, or
+/// its faces form more than one fan, or only two faces that are each other's back; isolated if it has no face.
+/// Faces of inconsistent orientation are accepted: rings follow edges, not orientation.
+///
+/// @param mesh  face indices must be in range
+/// @return      #V rows, without flaps and features
+/// Cost: linear in the mesh, O(d log d) for a vertex of valence d.
+Rings vertex_rings(const Mesh& mesh);
+
+/// Fills Rings::flap of rows that together hold every vertex (row i = vertex i): the vertex across each link edge,
+/// -1 if the link edge lies on the boundary or touches an irregular vertex on both ends.
+void find_flaps(Rings& rings);
+
+/// Marks as features the edges whose faces' normals differ by more than `degrees` (Rings::feature). Boundary edges
+/// are not features. Both ends of an edge get the same mark.
+void mark_features_by_angle(Rings& rings, const Positions& positions, double degrees);
+
+/// Marks as features the edges named by bit k of `edges[f]` = edge (k, k+1) of face f, in addition to those marked.
+/// @param edges  #F, e.g. the edges that are not faux, or selected ones
+void mark_features(Rings& rings, const Faces& faces, const std::vector<std::uint8_t>& edges);
+
+}  // namespace multires
