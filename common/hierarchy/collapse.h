@@ -1,0 +1,187 @@
+#pragma once
+
+#include "hierarchy/hierarchy.h"
+#include "hierarchy/quadric.h"
+
+#include <algorithm>
+#include <cmath>
+
+/// What one half-edge collapse v -> u needs and does, shared by the builders. `Mesh` is anything with ring(v) that
+/// gives a Ring; rings are those before the collapse.
+namespace multires::collapse {
+
+/// One row of Rings.
+struct Ring {
+    const Index* vertex;
+    const std::uint8_t* feature;  ///< null if there are no features
+    Index size;
+    RingKind kind;
+
+    bool closed() const { return kind == RingKind::closed; }
+    bool regular() const { return kind == RingKind::closed || kind == RingKind::open; }
+    /// Entry before and after j around the vertex, -1 beyond the end of an open ring.
+    Index before(Index j) const { return j > 0 ? vertex[j - 1] : closed() ? vertex[size - 1] : -1; }
+    Index after(Index j) const { return j + 1 < size ? vertex[j + 1] : closed() ? vertex[0] : -1; }
+    bool marked(Index j) const { return feature && feature[j]; }
+    Index find(Index v) const {
+        for (Index j = 0; j < size; ++j)
+            if (vertex[j] == v) return j;
+        return -1;
+    }
+    int features() const {
+        int count = 0;
+        if (feature)
+            for (Index j = 0; j < size; ++j) count += feature[j] != 0;
+        return count;
+    }
+};
+
+/// Ring r of a CSR table.
+inline Ring ring_of(const Rings& rings, Index r) {
+    const Index o = rings.offset[r];
+    return {rings.neighbor.data() + o, rings.feature.empty() ? nullptr : rings.feature.data() + o, rings.size(r),
+            rings.kind[r]};
+}
+
+/// Which neighbours v may go to, by its kind alone: along the boundary, along a feature, anywhere, nowhere.
+struct Directions {
+    explicit Directions(const Ring& ring) : ring_(ring), features_(ring.features()) {}
+    bool none() const {
+        return !ring_.regular() || (ring_.closed() ? features_ != 0 && features_ != 2 : features_ != 0);
+    }
+    bool allows(Index j) const {
+        if (!ring_.closed()) return j == 0 || j == ring_.size - 1;
+        return features_ == 0 || ring_.marked(j);
+    }
+
+private:
+    const Ring& ring_;
+    int features_;
+};
+
+/// Quadric of a vertex: its faces, and for a boundary vertex planes that stand on the boundary edges.
+inline Quadric vertex_quadric(Index v, const Ring& ring, const Positions& p) {
+    Quadric q;
+    if (!ring.regular()) return q;
+    const Index triangles = ring.closed() ? ring.size : ring.size - 1;
+    for (Index j = 0; j < triangles; ++j) {
+        const Vec3 a = p[ring.vertex[j]] - p[v], b = p[ring.after(j)] - p[v], n = a.cross(b);
+        const double length = n.norm();
+        if (length > 0) q.add_plane(n, length);
+        const bool at_start = !ring.closed() && j == 0, at_end = !ring.closed() && j == triangles - 1;
+        for (const Vec3& edge : {at_start ? a : Vec3(0, 0, 0), at_end ? b : Vec3(0, 0, 0)}) {
+            const Vec3 side = edge.cross(n);  // |side| = |edge| |n|; weight the plane by |edge|^2
+            const double norm = side.norm();
+            if (norm > 0) q.add_plane(side * (edge.squaredNorm() / norm), edge.squaredNorm());
+        }
+    }
+    return q;
+}
+
+/// Cost of v -> u: Garland-Heckbert quadrics of both at u, plus the edge-length term.
+inline double cost(const Quadric& qv, const Quadric& qu, const Vec3& d, double length_weight) {
+    const double quadric = qv.at(d) + qu.c;
+    return (quadric > 0 ? quadric : 0) + length_weight * qv.weight() * d.squaredNorm();
+}
+
+/// Limits on the faces a collapse leaves behind.
+struct FaceLimits {
+    double cosine;        ///< of the largest turn of a normal
+    double shape = 0.05;  ///< smallest height / longest edge that a face may be given if it was better before
+};
+
+/// Checks the faces around v that survive v -> u.
+inline bool faces_stay_good(Index v, Index u, const Ring& ring, const Positions& p, const FaceLimits& limits) {
+    const Index triangles = ring.closed() ? ring.size : ring.size - 1;
+    const Vec3 pv = p[v], pu = p[u];
+    for (Index j = 0; j < triangles; ++j) {
+        const Index a = ring.vertex[j], b = ring.after(j);
+        if (a == u || b == u) continue;
+        const Vec3 ab = p[b] - p[a], av = pv - p[a], au = pu - p[a];
+        const Vec3 n = ab.cross(av), m = ab.cross(au);
+        const double nn = n.squaredNorm(), mm = m.squaredNorm(), nm = n.dot(m), lab = ab.squaredNorm();
+        const double longest_before = std::max(lab, std::max(av.squaredNorm(), (pv - p[b]).squaredNorm()));
+        const double longest = std::max(lab, std::max(au.squaredNorm(), (pu - p[b]).squaredNorm()));
+        const double least = limits.shape * limits.shape;
+        const bool sliver_before = nn < least * longest_before * longest_before;
+        if (mm < least * longest * longest) {
+            // A sliver may stay one, but not become worse.
+            if (!sliver_before || mm * longest_before * longest_before < nn * longest * longest) return false;
+        }
+        if (nn < 1e-20 * longest_before * longest_before) continue;  // has no normal to turn
+        const double bound = limits.cosine * std::sqrt(nn * mm);
+        if (nm < bound) return false;
+    }
+    return true;
+}
+
+/// The link condition for v -> u = ring(v)[j], and that nobody's ring becomes too small. `degree(w)` is the present
+/// size of a ring; `adjacent(u, w)` knows edges made since the rings were taken.
+template <class RingOf, class Degree, class Adjacent>
+bool link_allows(const Ring& ring, Index j, const RingOf& ring_of, const Degree& degree, const Adjacent& adjacent) {
+    const Index u = ring.vertex[j];
+    const Ring target = ring_of(u);
+    if (!target.regular()) return false;
+    if (!ring.closed() && target.closed()) return false;
+    const Index wing[2] = {ring.before(j), ring.after(j)};
+    Index lost = 1;  // u loses v, and the edges to the wings are shared
+    for (const Index w : wing) {
+        if (w < 0) continue;
+        const Ring r = ring_of(w);
+        if (!r.regular() || degree(w) <= (r.closed() ? 3 : 2)) return false;
+        ++lost;
+    }
+    if (degree(u) + ring.size - lost - 1 < (target.closed() ? 3 : 2)) return false;
+    for (Index i = 0; i < ring.size; ++i) {
+        const Index w = ring.vertex[i];
+        if (w == u || w == wing[0] || w == wing[1]) continue;
+        if (target.find(w) >= 0 || adjacent(u, w)) return false;
+    }
+    return true;
+}
+
+/// Writes the ring of the even vertex i after all collapses of a step: odd neighbours give way to their parents.
+///
+/// Three cases for an odd x in i's ring, x -> u: u is i (x's ring takes x's place), u stands beside x (x's place
+/// closes up), or u replaces x. Works for any orientation of the two rings.
+/// @param odd_parent  parent of an odd vertex, -1 for even ones
+/// @param emit        called with (vertex, feature mark) in order around i
+template <class RingOf, class OddParent, class Emit>
+void ring_after(Index i, const Ring& ring, const RingOf& ring_of, const OddParent& odd_parent, const Emit& emit) {
+    for (Index j = 0; j < ring.size; ++j) {
+        const Index x = ring.vertex[j];
+        const Index u = odd_parent(x);
+        if (u < 0) {
+            bool mark = ring.marked(j);
+            if (ring.feature) {  // a feature edge that merges into this one
+                const Index jb = j > 0 ? j - 1 : ring.closed() ? ring.size - 1 : -1;
+                const Index ja = j + 1 < ring.size ? j + 1 : ring.closed() ? 0 : -1;
+                for (const Index k : {jb, ja})
+                    if (k >= 0 && odd_parent(ring.vertex[k]) == x) mark |= ring.marked(k);
+            }
+            emit(x, mark);
+        } else if (u == i) {
+            const Ring from = ring_of(x);
+            const Index t = from.find(i), m = from.size;
+            if (from.closed()) {
+                const bool same = from.after(t) == ring.before(j);
+                for (Index s = 2; s <= m - 2; ++s) {
+                    const Index k = (t + (same ? s : m - s)) % m;
+                    emit(from.vertex[k], from.marked(k));
+                }
+            } else {
+                // i is an end of x's chain and x an end of i's: the chain goes on beyond the wing.
+                const bool first = j == 0;
+                for (Index s = 2; s < m; ++s) {
+                    const Index step = first ? m + 1 - s : s;
+                    const Index k = t == 0 ? step : m - 1 - step;
+                    emit(from.vertex[k], from.marked(k));
+                }
+            }
+        } else if (u != ring.before(j) && u != ring.after(j)) {
+            emit(u, ring.marked(j));
+        }
+    }
+}
+
+}  // namespace multires::collapse

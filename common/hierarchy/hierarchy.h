@@ -1,0 +1,93 @@
+#pragma once
+
+#include "hierarchy/rings.h"
+#include "mesh/mesh.h"
+
+#include <functional>
+#include <vector>
+
+namespace multires {
+
+/// How collapses are grouped into levels.
+enum class Grouping {
+    /// A maximal independent set of vertices per step: no two removed vertices are neighbours (Roy et al. 2003,
+    /// section 3.1). A level is `sets_per_level` such steps.
+    independent_sets,
+    /// One vertex at a time, cheapest first (Guskov et al. 1999, section 3). A level is one vertex, or as many as
+    /// `level_ratio` says.
+    sequential,
+};
+
+/// What to build a hierarchy for. All lengths follow the mesh: nothing here depends on its scale.
+struct HierarchyOptions {
+    Grouping grouping = Grouping::independent_sets;
+    int sets_per_level = 1;            ///< >= 1; each set removes 22 to 25 % of the vertices
+    double level_ratio = 0;            ///< in [0, 1): a level keeps this share of its vertices; 0: one vertex per level
+    Index base_vertices = 100;         ///< stop here, or earlier if no collapse is allowed any more
+    double normal_limit_degrees = 60;  ///< a collapse may turn no face normal by more than this, in (0, 180]
+    /// Weight of the edge-length term beside the quadric: cost = (Q_v + Q_u)(p_u) + weight * area_v * |p_v - p_u|^2.
+    /// 0: quadric only (Roy); larger values keep vertices of a level evenly spaced, which sharpens bands.
+    double length_weight = 0.1;
+    bool flaps = true;  ///< store Rings::flap, for operators that need the 1-ring with flaps
+};
+
+/// One level: what is needed to go between the mesh of `fine` vertices and that of `coarse` vertices.
+///
+/// Vertices have places: 0..coarse-1 are even (they stay), coarse..fine-1 are odd (they go). Rows refer to places.
+struct Level {
+    Index fine = 0, coarse = 0;
+    /// Row r: ring of the odd vertex coarse + r at the moment it is removed: all entries are smaller than coarse + r.
+    Rings odd;
+    /// Rings in the mesh of `fine` vertices of the even vertices: all of them (row i = vertex i) or, with one vertex
+    /// per level, only those next to the odd vertex (Rings::vertices).
+    Rings even;
+    /// True if all entries (and flaps) of odd rows are even, so that odd vertices can be predicted in any order.
+    bool independent = true;
+};
+
+/// The order in which half-edge collapses remove vertices, grouped into levels. Knows geometry, not signals: positions
+/// never move, so every level is a subset of the input's vertices.
+struct Hierarchy {
+    std::vector<Index> order;   ///< #V: order[place] = input vertex; level k is the prefix of size[k] places
+    std::vector<Index> parent;  ///< #V: place the vertex was collapsed into, smaller than its own; -1 in the base
+    std::vector<Index> size;    ///< #levels+1: vertices of level k, size[0] = #V, the last is the base
+    std::vector<Level> levels;  ///< levels[k] leads from size[k] to size[k+1] vertices; 0 is the finest
+    Rings base;                 ///< rings of the base's vertices (row i = place i)
+    Positions positions;        ///< #V: positions in order of places
+    Index irregular = 0;        ///< vertices kept because their neighbourhood is not a disk or half disk
+    Index isolated = 0;         ///< vertices kept because no face holds them
+
+    Index vertices() const { return static_cast<Index>(order.size()); }
+};
+
+/// Called now and then with the fraction done; may throw to stop.
+using Tick = std::function<void(double)>;
+
+/// Builds the hierarchy of a mesh by half-edge collapses v -> u in order of the quadric error metric (Garland and
+/// Heckbert 1997), grouped as the options say.
+///
+/// A collapse is allowed if the link condition holds in the mesh as it is at that moment, no normal turns by more
+/// than the limit, and no face becomes degenerate or much worse shaped. Boundary vertices go only along the
+/// boundary, vertices with two feature edges only along the feature; irregular and isolated vertices and feature
+/// corners stay. The result does not depend on the number of threads.
+///
+/// @param rings      vertex_rings() of the mesh, with features marked if wanted; consumed
+/// @param positions  #V by 3, finite
+/// Cost: linear in #V (independent sets), O(#V log #V) (sequential).
+Hierarchy build_hierarchy(Rings rings, const Positions& positions, const HierarchyOptions& options,
+                          const Tick& tick = {});
+
+/// The mesh of a level: faces over places 0..size[level]-1, and which input face each comes from.
+struct LevelMesh {
+    Faces faces;
+    std::vector<Index> source_face;
+};
+
+/// @param faces  those the rings came from, with input vertex indices
+/// @param level  0 (all faces that count) .. levels.size() (the base)
+LevelMesh level_mesh(const Hierarchy& hierarchy, const Faces& faces, std::size_t level);
+
+/// The mesh of the first `count` places, count >= the base's size.
+LevelMesh prefix_mesh(const Hierarchy& hierarchy, const Faces& faces, Index count);
+
+}  // namespace multires

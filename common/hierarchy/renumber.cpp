@@ -1,0 +1,38 @@
+#include "hierarchy/renumber.h"
+
+namespace multires {
+
+Rings renumbered(const Rings& rings, const std::vector<Index>& from, const std::vector<Index>& place, Index limit) {
+    const Index rows = static_cast<Index>(from.size());
+    Rings out;
+    out.kind.resize(rows);
+    out.offset.resize(rows + 1);
+    for (Index r = 0; r < rows; ++r) out.offset[r + 1] = out.offset[r] + rings.size(from[r]);
+    out.neighbor.resize(out.offset[rows]);
+    if (!rings.flap.empty()) out.flap.resize(out.offset[rows]);
+    if (!rings.feature.empty()) out.feature.resize(out.offset[rows]);
+#pragma omp parallel for schedule(static)
+    for (Index r = 0; r < rows; ++r) {
+        out.kind[r] = rings.kind[from[r]];
+        const Index source = rings.offset[from[r]], to = out.offset[r];
+        for (Index j = 0; j < rings.size(from[r]); ++j) {
+            out.neighbor[to + j] = place[rings.neighbor[source + j]];
+            if (!rings.feature.empty()) out.feature[to + j] = rings.feature[source + j];
+            if (rings.flap.empty()) continue;
+            const Index flap = rings.flap[source + j];
+            out.flap[to + j] = flap >= 0 && place[flap] < limit ? place[flap] : -1;
+        }
+    }
+    return out;
+}
+
+void append(Rings& to, const Rings& more) {
+    const Index entries = to.offset.back();
+    for (Index r = 0; r < more.rows(); ++r) to.offset.push_back(entries + more.offset[r + 1]);
+    to.neighbor.insert(to.neighbor.end(), more.neighbor.begin(), more.neighbor.end());
+    to.flap.insert(to.flap.end(), more.flap.begin(), more.flap.end());
+    to.feature.insert(to.feature.end(), more.feature.begin(), more.feature.end());
+    to.kind.insert(to.kind.end(), more.kind.begin(), more.kind.end());
+}
+
+}  // namespace multires
