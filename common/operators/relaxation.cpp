@@ -1,0 +1,242 @@
+#include "operators/relaxation.h"
+
+#include "operators/kernels.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <unordered_map>
+
+#include <omp.h>
+
+namespace multires {
+
+namespace {
+
+double length(const Star& star, const Positions& positions, Index entry) {
+    return (positions[star.neighbor[entry]] - positions[star.vertex]).norm();
+}
+
+/// Linear interpolation between the neighbours a and b: weights inverse to the edge lengths.
+void interpolate(const Star& star, const Positions& positions, Index a, Index b, double* weight) {
+    const double to_a = length(star, positions, a), to_b = length(star, positions, b), sum = to_a + to_b;
+    weight[a] = sum > 0 ? to_b / sum : 0.5;
+    weight[b] = sum > 0 ? to_a / sum : 0.5;
+}
+
+/// What is used when all triangles of a star are degenerate. Scaled by the shortest edge, so that the limit of edges of
+/// no length is taken exactly: those share the weight.
+void inverse_lengths(const StarGeometry& star, double* weight) {
+    const Index n = star.size;
+    const double least = std::sqrt(*std::min_element(star.square, star.square + n));
+    double sum = 0;
+    for (Index j = 0; j < n; ++j) {
+        const double length = std::sqrt(star.square[j]);
+        weight[j] = length > least ? least / length : 1;
+        sum += weight[j];
+    }
+    for (Index j = 0; j < n; ++j) weight[j] /= sum;
+}
+
+bool is_second_difference(Operator op) {
+    return op == Operator::second_difference || op == Operator::second_difference_flaps;
+}
+
+/// Calls row(relaxation, r) for all rows in parallel and returns those for which it said false, ascending. The schedule
+/// is static, so threads own consecutive rows and their lists follow each other.
+template <class Row>
+std::vector<Index> for_rows(Index rows, const RelaxationOptions& options, const Row& row) {
+    std::vector<std::vector<Index>> kept(omp_get_max_threads());
+#pragma omp parallel
+    {
+        RowRelaxation relaxation(options);
+        std::vector<Index>& mine = kept[omp_get_thread_num()];
+#pragma omp for schedule(static)
+        for (Index r = 0; r < rows; ++r) {
+            if (!row(relaxation, r)) mine.push_back(r);
+        }
+    }
+    std::vector<Index> all;
+    for (const std::vector<Index>& part : kept) all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+Positions relaxed(const Rings& rings, const std::vector<Index>& offset, const std::vector<Index>& column,
+                  const std::vector<double>& weight, const std::vector<Index>& kept, const Positions& f) {
+    Positions result(f);
+#pragma omp parallel for schedule(static)
+    for (Index r = 0; r < rings.rows(); ++r) {
+        Vec3 sum = Vec3::Zero();
+        for (Index k = offset[r]; k < offset[r + 1]; ++k) sum += weight[k] * f[column[k]];
+        result[rings.vertex(r)] = sum;
+    }
+    for (const Index r : kept) result[rings.vertex(r)] = f[rings.vertex(r)];
+    return result;
+}
+
+}  // namespace
+
+RowRelaxation::RowRelaxation(const RelaxationOptions& options)
+    : options_(options), largest_cotangent_(1 / std::tan(options.smallest_angle * std::acos(-1.0) / 180)) {}
+
+RowRelaxation::Curve RowRelaxation::rule(const Star& star) const {
+    if (star.kind == RingKind::open) {
+        const Index last = star.size - 1;
+        const bool crease_ends = star.feature != nullptr &&
+                                 std::any_of(star.feature + 1, star.feature + last, [](auto f) { return f != 0; });
+        return {crease_ends ? Rule::keep : Rule::curve, 0, last};
+    }
+    if (star.kind != RingKind::closed) return {Rule::keep};
+    if (star.feature == nullptr || is_second_difference(options_.op)) return {Rule::disk};
+    Index count = 0, ends[2] = {0, 0};
+    for (Index j = 0; j < star.size; ++j) {
+        if (star.feature[j] == 0) continue;
+        if (count < 2) ends[count] = j;
+        ++count;
+    }
+    if (count == 0) return {Rule::disk};
+    return {count == 2 ? Rule::curve : Rule::keep, ends[0], ends[1]};
+}
+
+bool RowRelaxation::ring(const Star& star, const Positions& positions, double* weight) {
+    const Curve curve = rule(star);
+    if (curve.rule != Rule::disk) {
+        std::fill_n(weight, star.size, 0.0);
+        if (curve.rule == Rule::curve) interpolate(star, positions, curve.a, curve.b, weight);
+        return curve.rule == Rule::curve;
+    }
+    if (options_.op == Operator::umbrella) {
+        std::fill_n(weight, star.size, 1.0 / star.size);
+        return true;
+    }
+    geometry_.load(star, positions, options_.degenerate);
+    bool found = false;
+    switch (options_.op) {
+    case Operator::cotangent:
+        found = kernels::cotangent(geometry_, weight);
+        break;
+    case Operator::cotangent_clamped:
+        found = kernels::cotangent_clamped(geometry_, largest_cotangent_, weight);
+        break;
+    case Operator::cotangent_delaunay:
+        found = kernels::cotangent_delaunay(geometry_, weight);
+        break;
+    case Operator::second_difference:
+        found = kernels::second_difference(geometry_, star.feature, nullptr, star.size, weight);
+        break;
+    case Operator::umbrella:
+    case Operator::second_difference_flaps:
+        throw std::invalid_argument("RowRelaxation::ring: operator uses flaps");
+    }
+    return found || nothing_left(star, weight);
+}
+
+bool RowRelaxation::nothing_left(const Star& star, double* weight) const {
+    const bool has_feature =
+        star.feature != nullptr && std::any_of(star.feature, star.feature + star.size, [](auto f) { return f != 0; });
+    if (has_feature) {
+        std::fill_n(weight, star.size, 0.0);
+    } else {
+        inverse_lengths(geometry_, weight);
+    }
+    return !has_feature;
+}
+
+void RowRelaxation::flap_slots(const Star& star) {
+    const Index n = star.size;
+    const Index* const ring_end = star.neighbor + n;
+    slot_.assign(n, -1);
+    extra_.clear();
+    if (star.kind != RingKind::closed) return;
+    std::unordered_map<Index, Index> slots;
+    if (n > 64) {
+        for (Index j = 0; j < n; ++j) slots.emplace(star.neighbor[j], j);
+    }
+    for (Index j = 0; j < n; ++j) {
+        const Index f = star.flap[j];
+        if (f < 0 || f == star.vertex) continue;
+        if (n > 64) {
+            const auto [at, is_new] = slots.emplace(f, n + static_cast<Index>(extra_.size()));
+            slot_[j] = at->second;
+            if (is_new) extra_.push_back(f);
+            continue;
+        }
+        const auto in_ring = std::find(star.neighbor, ring_end, f);
+        if (in_ring != ring_end) {
+            slot_[j] = static_cast<Index>(in_ring - star.neighbor);
+            continue;
+        }
+        const auto known = std::find(extra_.begin(), extra_.end(), f);
+        slot_[j] = n + static_cast<Index>(known - extra_.begin());
+        if (known == extra_.end()) extra_.push_back(f);
+    }
+}
+
+Index RowRelaxation::flap_columns(const Star& star) {
+    flap_slots(star);
+    return star.size + static_cast<Index>(extra_.size());
+}
+
+bool RowRelaxation::flaps(const Star& star, const Positions& positions, Index* column, double* weight) {
+    flap_slots(star);
+    const Index columns = star.size + static_cast<Index>(extra_.size());
+    std::copy_n(star.neighbor, star.size, column);
+    std::copy(extra_.begin(), extra_.end(), column + star.size);
+    const Curve curve = rule(star);
+    if (curve.rule != Rule::disk) {
+        std::fill_n(weight, columns, 0.0);
+        if (curve.rule == Rule::curve) interpolate(star, positions, curve.a, curve.b, weight);
+        return curve.rule == Rule::curve;
+    }
+    geometry_.load(star, positions, options_.degenerate);
+    const kernels::Flaps flaps{star.flap, slot_.data(), &positions, positions[star.vertex], options_.degenerate};
+    if (kernels::second_difference(geometry_, star.feature, &flaps, columns, weight)) return true;
+    std::fill_n(weight, columns, 0.0);
+    return nothing_left(star, weight);
+}
+
+RingWeights ring_weights(const Rings& rings, const Positions& positions, const RelaxationOptions& options) {
+    if (uses_flaps(options.op)) throw std::invalid_argument("ring_weights: the operator uses flaps");
+    RingWeights result;
+    result.weight.resize(rings.neighbor.size());
+    result.kept = for_rows(rings.rows(), options, [&](RowRelaxation& relaxation, Index r) {
+        return relaxation.ring(star(rings, r), positions, result.weight.data() + rings.offset[r]);
+    });
+    return result;
+}
+
+Rows relaxation(const Rings& rings, const Positions& positions, const RelaxationOptions& options) {
+    Rows rows;
+    if (!uses_flaps(options.op)) {
+        RingWeights weights = ring_weights(rings, positions, options);
+        rows.offset = rings.offset;
+        rows.column = rings.neighbor;
+        rows.weight = std::move(weights.weight);
+        rows.kept = std::move(weights.kept);
+        return rows;
+    }
+    if (rings.flap.size() != rings.neighbor.size()) throw std::invalid_argument("relaxation: the rings have no flaps");
+    rows.offset.resize(rings.rows() + 1);
+    for_rows(rings.rows(), options, [&](RowRelaxation& relaxation, Index r) {
+        rows.offset[r + 1] = relaxation.flap_columns(star(rings, r));
+        return true;
+    });
+    for (Index r = 0; r < rings.rows(); ++r) rows.offset[r + 1] += rows.offset[r];
+    rows.column.resize(rows.offset.back());
+    rows.weight.resize(rows.offset.back());
+    rows.kept = for_rows(rings.rows(), options, [&](RowRelaxation& relaxation, Index r) {
+        const Index at = rows.offset[r];
+        return relaxation.flaps(star(rings, r), positions, rows.column.data() + at, rows.weight.data() + at);
+    });
+    return rows;
+}
+
+Positions relaxed(const Rings& rings, const RingWeights& weights, const Positions& f) {
+    return relaxed(rings, rings.offset, rings.neighbor, weights.weight, weights.kept, f);
+}
+
+Positions relaxed(const Rings& rings, const Rows& rows, const Positions& f) {
+    return relaxed(rings, rows.offset, rows.column, rows.weight, rows.kept, f);
+}
+
+}  // namespace multires

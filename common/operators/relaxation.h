@@ -1,0 +1,138 @@
+#pragma once
+
+#include "hierarchy/rings.h"
+#include "operators/star.h"
+
+#include <vector>
+
+/// Relaxation operators R: each predicts a vertex from its neighbours,  R f_v = sum_k weight_k f_k.
+///
+/// Sign convention of the whole project: the Laplacian is L = R - I, so L f_v = (weighted mean of the neighbours) -
+/// f_v. It points towards the neighbours, is negative semidefinite where the weights are nonnegative and symmetrisable,
+/// and f + t L f with 0 < t <= 1 smooths. The detail of a vertex is its negative, f_v - R f_v.
+///
+/// The weights depend on positions only and apply to every channel f (Roy 2003, eq. 3). They do not change under
+/// rotation, translation, reflection or scaling of the mesh.
+///
+/// Rules that hold for all operators
+/// - Every row sums to 1 up to rounding, or is identically zero and listed in `kept`: that vertex keeps its value,
+///   R f_v = f_v. Kept are vertices without a ring (irregular, isolated) and corners (below).
+/// - Boundary: a vertex with an open ring is relaxed along the boundary curve only, by linear interpolation of its two
+///   boundary neighbours with weights inverse to the edge lengths. It is kept if a feature edge meets the boundary
+///   there.
+/// - Feature edges: the second-order differences across them are left out of the sum (Guskov 1999, section 2.3). For
+///   the other operators a vertex with exactly two feature spokes is relaxed along the crease as if it were a boundary;
+///   with one, or more than two, it is a corner and kept. A link edge that is a feature is given by a flap of -1.
+/// - Degenerate triangles, those with 2 area <= `degenerate` x (sum of squared edge lengths), are left out. If nothing
+/// is
+///   left of a closed ring, its weights are inverse to the edge lengths (neighbours that coincide with the vertex, if
+///   there are any, share the weight), or the vertex is kept if it has feature spokes.
+namespace multires {
+
+/// The weight of neighbour j of vertex i, before each row is divided by its sum.
+enum class Operator {
+    /// 1 for all neighbours. Depends on the connectivity only: moves vertices within a plane. The baseline.
+    umbrella,
+    /// cot alpha_ij + cot beta_ij (Roy 2003, eq. 2; Meyer et al. 2002). Reproduces linear functions on planar meshes.
+    /// Negative where alpha + beta > 180 degrees, and large on slivers: the weights of a row are not bounded.
+    cotangent,
+    /// The same with angles limited to [smallest_angle, 180 - smallest_angle] and negative sums set to 0. Weights are
+    /// in
+    /// [0, 1], but linear functions are reproduced only where nothing was limited.
+    cotangent_clamped,
+    /// Cotangent weights of the star after its spokes with alpha + beta > 180 degrees were flipped intrinsically: both
+    /// triangles are unfolded, the spoke drops out (weight 0) and its two ring neighbours become consecutive. Weights
+    /// are in [0, 1] and linear functions are reproduced on planar meshes. See cotangent.cpp for how this relates to
+    /// the intrinsic Delaunay Laplacian of the whole mesh.
+    cotangent_delaunay,
+    /// Minimises the squared second-order differences over the spokes (Guskov 1999, eq. 1-3 with E1). Reproduces linear
+    /// functions on planar meshes. May be negative.
+    second_difference,
+    /// The same over spokes and link edges (E2, "1-ring with flaps", Guskov's choice): the stencil includes the flap
+    /// vertices. May be negative.
+    second_difference_flaps,
+};
+
+/// How a relaxation is made.
+struct RelaxationOptions {
+    Operator op = Operator::cotangent_delaunay;
+    /// Triangles with 2 area <= this x (sum of squared edge lengths) count as degenerate. No unit; an equilateral
+    /// triangle has 0.29, one with a base of 1 and a height of h << 1 about h / 2.
+    double degenerate = 1e-10;
+    /// Degrees, for cotangent_clamped: angles nearer than this to 0 or 180 are taken as this far from them.
+    double smallest_angle = 1;
+};
+
+/// True if the stencil is more than the 1-ring, so that ring_weights() cannot hold it.
+constexpr bool uses_flaps(Operator op) { return op == Operator::second_difference_flaps; }
+
+/// Weights on the entries of some Rings.
+struct RingWeights {
+    std::vector<double> weight;  ///< #entries, aligned with Rings::neighbor; zeros in the rows kept
+    std::vector<Index> kept;     ///< ascending: the rows whose vertex keeps its value
+};
+
+/// Sparse rows with columns of their own, aligned with the rows of some Rings.
+struct Rows {
+    std::vector<Index> offset{0};  ///< #rows+1
+    std::vector<Index> column;     ///< #entries: vertices, all different within a row
+    std::vector<double> weight;    ///< #entries; zeros in the rows kept
+    std::vector<Index> kept;       ///< ascending: the rows whose vertex keeps its value
+};
+
+/// The weights of an operator whose stencil is the 1-ring.
+/// @param positions  #V by 3, finite, indexed by the vertices that the rings name
+/// @throws std::invalid_argument if the operator uses flaps (our bug, not the user's)
+/// Cost: O(entries), parallel over rows; the result does not depend on the number of threads.
+RingWeights ring_weights(const Rings& rings, const Positions& positions, const RelaxationOptions& options = {});
+
+/// The rows of any operator. The columns of a row are the ring in its order, then the flap vertices that are not in the
+/// ring, in the order they first occur. Other operators than those with flaps have the ring only.
+/// @param positions  as above
+/// @throws std::invalid_argument if the operator uses flaps and the rings have none
+/// Cost: as above; rows longer than 64 hash their flaps.
+Rows relaxation(const Rings& rings, const Positions& positions, const RelaxationOptions& options = {});
+
+/// R f at the vertices that have a row, f elsewhere.
+/// @param f  #V by 3
+/// Cost: O(V + entries), parallel over rows; the result does not depend on the number of threads.
+Positions relaxed(const Rings& rings, const RingWeights& weights, const Positions& f);
+Positions relaxed(const Rings& rings, const Rows& rows, const Positions& f);
+
+/// Makes one row at a time, for callers that have no Rings of a whole level. Holds scratch memory that grows with the
+/// largest ring seen: reuse it, one object per thread.
+class RowRelaxation {
+public:
+    explicit RowRelaxation(const RelaxationOptions& options);
+
+    /// Writes the weights of a star's entries.
+    /// @param weight  room for star.size
+    /// @returns false if the vertex keeps its value; the weights are zero then
+    bool ring(const Star& star, const Positions& positions, double* weight);
+
+    /// How many columns the row of an operator with flaps has; at most 2 star.size.
+    Index flap_columns(const Star& star);
+
+    /// Writes the columns and weights of a row of an operator with flaps.
+    /// @param column, weight  room for flap_columns(star)
+    /// @returns false if the vertex keeps its value; the weights are zero then
+    bool flaps(const Star& star, const Positions& positions, Index* column, double* weight);
+
+private:
+    enum class Rule { keep, curve, disk };
+    struct Curve {
+        Rule rule;
+        Index a = 0, b = 0;  ///< entries of the two neighbours along the curve, for Rule::curve
+    };
+    Curve rule(const Star& star) const;
+    bool nothing_left(const Star& star, double* weight) const;
+    void flap_slots(const Star& star);
+
+    RelaxationOptions options_;
+    double largest_cotangent_;  ///< of smallest_angle
+    StarGeometry geometry_;
+    std::vector<Index> slot_;   ///< of the last star: entry of the row that each flap adds to, -1 if there is no flap
+    std::vector<Index> extra_;  ///< of the last star: flap vertices that are not in the ring
+};
+
+}  // namespace multires
