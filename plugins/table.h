@@ -89,10 +89,13 @@ Filter filter(Filter row, Options (*defaults)(const Layer*), void (*bind)(Parame
     return row;
 }
 
-/// A plugin: its name, and its filters. Each plugin's source defines `const Plugin& table()`.
+/// A plugin: its name, and its filters.
 struct Plugin {
     std::string name;  ///< "FilterMultiresBand"
     std::vector<Filter> filters;
 };
+
+/// The table of a plugin; each plugin's source defines it.
+const Plugin& table();
 
 } // namespace multires::plugin

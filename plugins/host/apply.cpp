@@ -1,0 +1,152 @@
+#include "host/apply.h"
+
+#include "host/document.h"
+#include "host/kept_pyramid.h"
+#include "host/parameters.h"
+
+#include <chrono>
+#include <iomanip>
+#include <new>
+#include <sstream>
+#include <utility>
+
+namespace multires::host {
+namespace {
+
+using plugin::Filter;
+
+void require(bool condition, const char* message) {
+    if (!condition) throw InputError(message);
+}
+
+MeshModel& current_mesh(const Filter& filter, MeshDocument& document) {
+    MeshModel* model = document.mm();
+    require(model != nullptr, "There is no mesh: load one, or select a layer.");
+    require(model->cm.vn > 0, "The current mesh is empty.");
+    require(!(filter.needs & plugin::faces) || model->cm.fn > 0,
+            "The current mesh has no faces: this filter needs a triangle mesh, not a point cloud.");
+    const auto needs = [&](plugin::Parts part, int element, const char* message) {
+        require(!(filter.needs & part) || model->hasDataMask(element), message);
+    };
+    needs(plugin::vertex_quality, MeshModel::MM_VERTQUALITY, "The current mesh has no vertex quality.");
+    needs(plugin::vertex_color, MeshModel::MM_VERTCOLOR, "The current mesh has no vertex colours.");
+    needs(plugin::vertex_texcoord, MeshModel::MM_VERTTEXCOORD, "The current mesh has no vertex texture coordinates.");
+    needs(plugin::wedge_texcoord, MeshModel::MM_WEDGTEXCOORD, "The current mesh has no wedge texture coordinates.");
+    return *model;
+}
+
+/// Passes progress on when the percentage changes, and at least every tenth of a second: a host redraws each time.
+Progress progress_of(vcg::CallBackPos* callback) {
+    if (!callback) return Progress();
+    using Clock = std::chrono::steady_clock;
+    return Progress([callback, last = -1, when = Clock::time_point()](int percent, const char* what) mutable {
+        const auto now = Clock::now();
+        if (percent == last && now - when < std::chrono::milliseconds(100)) return true;
+        last = percent, when = now;
+        return callback(percent, what);
+    });
+}
+
+std::string text(const Report::Value& value) {
+    std::ostringstream out;
+    out << std::boolalpha << std::setprecision(6);
+    std::visit(
+        [&](const auto& v) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::vector<double>>)
+                for (std::size_t i = 0; i < v.size(); ++i) out << (i ? " " : "") << v[i];
+            else
+                out << v;
+        },
+        value);
+    return out.str();
+}
+
+} // namespace
+
+const Filter& row(const plugin::Plugin& table, const QAction* action) {
+    const std::string name = action->text().remove('&').toStdString();
+    for (const Filter& filter : table.filters)
+        if (filter.name == name) return filter;
+    throw std::logic_error("no filter \"" + name + "\" in " + table.name);
+}
+
+Interface::FilterClass menu_class(const Filter& filter) {
+    switch (filter.menu_class) {
+    case plugin::MenuClass::smoothing: return Interface::Smoothing;
+    case plugin::MenuClass::remeshing: return Interface::Remeshing;
+    case plugin::MenuClass::quality: return Interface::Quality;
+    case plugin::MenuClass::layer: return Interface::Layer;
+    case plugin::MenuClass::measure: return Interface::Measure;
+    }
+    throw std::logic_error("filter without a menu class");
+}
+
+int precondition(const Filter& filter) {
+    const auto bits = [&](plugin::Parts part, int elements) { return filter.needs & part ? elements : 0; };
+    return bits(plugin::faces, MeshModel::MM_FACENUMBER) | bits(plugin::vertex_quality, MeshModel::MM_VERTQUALITY) |
+           bits(plugin::vertex_color, MeshModel::MM_VERTCOLOR) |
+           bits(plugin::vertex_texcoord, MeshModel::MM_VERTTEXCOORD) |
+           bits(plugin::wedge_texcoord, MeshModel::MM_WEDGTEXCOORD);
+}
+
+int postcondition(const Filter& filter) {
+    const auto bits = [&](plugin::Parts part, int elements) { return filter.changes & part ? elements : 0; };
+    const int changed =
+        bits(plugin::vertex_positions, MeshModel::MM_VERTCOORD | MeshModel::MM_VERTNORMAL | MeshModel::MM_FACENORMAL) |
+        bits(plugin::faces, MeshModel::MM_FACENUMBER | MeshModel::MM_VERTNUMBER) |
+        bits(plugin::vertex_quality, MeshModel::MM_VERTQUALITY) | bits(plugin::vertex_color, MeshModel::MM_VERTCOLOR) |
+        bits(plugin::vertex_texcoord, MeshModel::MM_VERTTEXCOORD) |
+        bits(plugin::wedge_texcoord, MeshModel::MM_WEDGTEXCOORD);
+    const bool lasting = filter.changes & (plugin::new_layer | plugin::vertex_texcoord | plugin::wedge_texcoord);
+    return lasting && changed ? changed | MeshModel::MM_VERTNUMBER : changed;
+}
+
+RichParameterList parameters(const Filter& filter, const MeshDocument& document) {
+    const MeshModel* model = document.mm();
+    if (!model || model->cm.vn == 0) return declare_parameters(filter, nullptr);
+    try {
+        const VcgLayer flat = read_layer(filter, *model);
+        return declare_parameters(filter, &flat.layer);
+    } catch (const std::exception&) {  // told when the filter runs
+        return declare_parameters(filter, nullptr);
+    }
+}
+
+Report apply(const Filter& filter, const RichParameterList& list, MeshDocument& document, vcg::CallBackPos* callback) {
+    MeshModel& model = current_mesh(filter, document);
+    const VcgLayer flat = read_layer(filter, model);
+
+    Session session;
+    session.progress = progress_of(callback);
+    session.pyramid = kept_pyramid(model.cm);
+    ParameterReader reader(list);
+    Result result = filter.run(reader, flat.layer, session);
+
+    write_result(document, model, flat, result, session.pyramid);
+    return std::move(result.report);
+}
+
+std::string describe_exception() {
+    try {
+        throw;
+    } catch (const Cancelled&) {
+        return "Cancelled: nothing was changed.";
+    } catch (const std::bad_alloc&) {
+        return "Not enough memory: nothing was changed.";
+    } catch (const InputError& e) {
+        return e.what();
+    } catch (const std::exception& e) {
+        return std::string("Internal error, nothing was changed: ") + e.what();
+    } catch (...) {
+        return "Internal error, nothing was changed.";
+    }
+}
+
+std::vector<std::string> log_lines(const Report& report) {
+    std::vector<std::string> lines = report.lines();
+    for (const Report::Entry& entry : report.entries())
+        lines.push_back(entry.key + ": " + text(entry.value) + (entry.unit.empty() ? "" : " " + entry.unit));
+    return lines;
+}
+
+} // namespace multires::host

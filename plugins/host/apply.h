@@ -1,0 +1,39 @@
+#pragma once
+
+#include "host/api.h"
+
+#include <string>
+#include <vector>
+
+/// What both filter APIs have in common: the host's view of a table row, and the story of one call.
+namespace multires::host {
+
+/// The row of the action, found by its text (hosts may put an '&' in it).
+/// @throws std::logic_error  if the action is not of this plugin
+const plugin::Filter& row(const plugin::Plugin& table, const QAction* action);
+
+Interface::FilterClass menu_class(const plugin::Filter& filter);
+
+/// MeshModel::MeshElement bits that a mesh must have.
+int precondition(const plugin::Filter& filter);
+
+/// MeshModel::MeshElement bits that a call may change in the current mesh. Hosts offer a preview for them unless the
+/// number of vertices is among them, which it is said to be where they could not take the preview back.
+int postcondition(const plugin::Filter& filter);
+
+/// The parameters to show for the current mesh; works with an empty document too.
+RichParameterList parameters(const plugin::Filter& filter, const MeshDocument& document);
+
+/// Runs the filter on the current mesh. The document is changed at the very end, completely or (whatever is thrown)
+/// not at all; nothing but what the Result holds changes. A new layer becomes the current one.
+/// @throws InputError, Cancelled, std::exception: see describe_exception
+Report apply(const plugin::Filter& filter, const RichParameterList& list, MeshDocument& document,
+             vcg::CallBackPos* callback);
+
+/// The exception being handled, in words for the user. Call it in a catch block.
+std::string describe_exception();
+
+/// A report as lines for the host's log: the filter's own, then a line for each number.
+std::vector<std::string> log_lines(const Report& report);
+
+} // namespace multires::host

@@ -1,0 +1,110 @@
+#include "host/document.h"
+
+namespace multires::host {
+namespace {
+
+/// MeshElement bits that mean data; the others are adjacencies and marks, which are computed where needed.
+constexpr int data_elements = MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALITY | MeshModel::MM_VERTCURV |
+                              MeshModel::MM_VERTCURVDIR | MeshModel::MM_VERTRADIUS | MeshModel::MM_VERTTEXCOORD |
+                              MeshModel::MM_FACECOLOR | MeshModel::MM_FACEQUALITY | MeshModel::MM_FACECURVDIR |
+                              MeshModel::MM_WEDGTEXCOORD | MeshModel::MM_WEDGNORMAL | MeshModel::MM_WEDGCOLOR |
+                              MeshModel::MM_CAMERA | MeshModel::MM_TRANSFMATRIX | MeshModel::MM_COLOR;
+
+/// A layer being made: deleted again unless it is finished.
+class NewLayer {
+public:
+    NewLayer(MeshDocument& document, const MeshModel& source, const VcgLayer& flat, const DerivedMesh& derived)
+        : document_(document), model_(document.addNewMesh("", QString::fromStdString(derived.name), false)) {
+        try {
+            fill(source, flat, derived);
+        } catch (...) {
+            delete_layer(document_, *model_);
+            throw;
+        }
+    }
+    ~NewLayer() {
+        if (model_) delete_layer(document_, *model_);
+    }
+    NewLayer(const NewLayer&) = delete;
+    NewLayer& operator=(const NewLayer&) = delete;
+
+    void finish() {
+        document_.setCurrentMesh(model_->id());
+        model_ = nullptr;
+    }
+    const std::vector<std::string>& left_out() const { return left_out_; }
+
+private:
+    void fill(const MeshModel& source, const VcgLayer& flat, const DerivedMesh& derived) {
+        left_out_ = build_derived(model_->cm, source.cm, flat, derived);
+        model_->updateDataMask(source.dataMask() & data_elements);
+        model_->cm.Tr = source.cm.Tr;
+        model_->cm.shot = source.cm.shot;
+        copy_texture_images(*model_, source);
+        update_box_and_normals(*model_);
+    }
+
+    MeshDocument& document_;
+    MeshModel* model_;
+    std::vector<std::string> left_out_;
+};
+
+/// Switches data on that the result needs and the mesh lacks: off again unless it is finished.
+class NewElements {
+public:
+    NewElements(MeshModel& model, const Result& result) : model_(model) {
+        int needed = 0;
+        if (result.quality) needed |= MeshModel::MM_VERTQUALITY;
+        for (const Attribute& a : result.attributes) {
+            if (a.kind == AttributeKind::color) needed |= MeshModel::MM_VERTCOLOR;
+            if (a.kind == AttributeKind::quality) needed |= MeshModel::MM_VERTQUALITY;
+            if (a.kind == AttributeKind::texcoord) needed |= MeshModel::MM_VERTTEXCOORD;
+        }
+        added_ = needed & ~model.dataMask();
+        model.updateDataMask(added_);
+    }
+    ~NewElements() { model_.clearDataMask(added_); }
+    NewElements(const NewElements&) = delete;
+    NewElements& operator=(const NewElements&) = delete;
+
+    void finish() { added_ = 0; }
+
+private:
+    MeshModel& model_;
+    int added_ = 0;
+};
+
+} // namespace
+
+VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model) {
+    AttributeRequest request;
+    request.color = filter.reads & plugin::vertex_color && model.hasDataMask(MeshModel::MM_VERTCOLOR);
+    request.quality = filter.reads & plugin::vertex_quality && model.hasDataMask(MeshModel::MM_VERTQUALITY);
+    request.texcoord = filter.reads & plugin::vertex_texcoord && model.hasDataMask(MeshModel::MM_VERTTEXCOORD);
+    return to_layer(model.cm, request);
+}
+
+void write_result(MeshDocument& document, MeshModel& model, const VcgLayer& flat, Result& result,
+                  const PyramidPointer& pyramid) {
+    // What can fail comes first, and is taken back by the destructors if anything after it does.
+    std::optional<NewLayer> layer;
+    if (result.layer) layer.emplace(document, model, flat, *result.layer);
+    if (layer)
+        for (const std::string& name : layer->left_out())
+            result.report.say("Custom attribute \"" + name + "\" has a type that cannot be copied to the new layer.");
+    NewElements elements(model, result);
+    PyramidPointer* slot = pyramid ? &pyramid_slot(model.cm) : nullptr;
+    LayerChanges changes;
+    changes.positions = result.positions ? &*result.positions : nullptr;
+    changes.quality = result.quality ? &*result.quality : nullptr;
+    changes.attributes = &result.attributes;
+    write(model.cm, flat, changes);
+
+    // From here on nothing can fail.
+    if (slot) *slot = pyramid;
+    if (result.positions) update_box_and_normals(model);
+    elements.finish();
+    if (layer) layer->finish();
+}
+
+} // namespace multires::host

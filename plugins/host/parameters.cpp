@@ -1,0 +1,109 @@
+#include "host/parameters.h"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+namespace multires::host {
+namespace {
+
+using plugin::Hint;
+
+class Declarer final : public plugin::Parameters {
+public:
+    void boolean(const char* name, bool& value, const Hint& hint) override { add<RichBool>(name, hint, value); }
+    void integer(const char* name, int& value, const Hint& hint) override { add<RichInt>(name, hint, value); }
+    void real(const char* name, double& value, const Hint& hint) override {
+        add<RichFloat>(name, hint, static_cast<Scalarm>(value));
+    }
+    void slider(const char* name, double& value, const Hint& hint) override {
+        add<RichDynamicFloat>(name, hint, static_cast<Scalarm>(value), static_cast<Scalarm>(hint.least),
+                              static_cast<Scalarm>(hint.most));
+    }
+    void choice(const char* name, int& value, const std::vector<std::string>& names, const Hint& hint) override {
+        QStringList list;
+        for (const std::string& n : names) list << QString::fromStdString(n);
+        add<RichEnum>(name, hint, value, list);
+    }
+
+    RichParameterList list;
+
+private:
+    template <class Rich, class... Value>
+    void add(const char* name, const Hint& hint, const Value&... value) {
+        list.addParam(make_parameter<Rich>(QString(name), hint, value...));
+    }
+};
+
+RichParameterList declare(const plugin::Filter& filter, const Layer* layer) {
+    Declarer declarer;
+    filter.parameters(declarer, layer);
+    return declarer.list;
+}
+
+[[noreturn]] void refuse(const char* name, const Hint& hint, double value) {
+    std::ostringstream message;
+    message << "Parameter \"" << name << "\" (" << hint.label << ") is " << value << "; it must be ";
+    const bool below = hint.least > -1e300, above = hint.most < 1e300;
+    if (below && above)
+        message << "between " << hint.least << " and " << hint.most << ".";
+    else if (below)
+        message << "at least " << hint.least << ".";
+    else if (above)
+        message << "at most " << hint.most << ".";
+    else
+        message << "a finite number.";
+    throw InputError(message.str());
+}
+
+/// `given` if it is in range. Hosts pass reals in single precision: a value that differs from `current` only by that
+/// is `current`, and one that leaves the range only by that is the end of the range.
+double checked_real(const char* name, double current, double given, const Hint& hint) {
+    if (!std::isfinite(given)) refuse(name, hint, given);
+    if (static_cast<float>(given) == static_cast<float>(current)) return current;
+    const double slack = 1e-6 * std::abs(given);
+    if (given < hint.least - slack || given > hint.most + slack) refuse(name, hint, given);
+    return std::clamp(given, hint.least, hint.most);
+}
+
+} // namespace
+
+RichParameterList declare_parameters(const plugin::Filter& filter, const Layer* layer) {
+    if (layer) try {
+            return declare(filter, layer);
+        } catch (const std::exception&) {  // see the header
+        }
+    return declare(filter, nullptr);
+}
+
+void ParameterReader::boolean(const char* name, bool& value, const Hint& /*hint*/) {
+    if (list_.hasParameter(name)) value = list_.getBool(name);
+}
+
+void ParameterReader::integer(const char* name, int& value, const Hint& hint) {
+    if (!list_.hasParameter(name)) return;
+    const int given = list_.getInt(name);
+    if (given < hint.least || given > hint.most) refuse(name, hint, given);
+    value = given;
+}
+
+void ParameterReader::real(const char* name, double& value, const Hint& hint) {
+    if (list_.hasParameter(name)) value = checked_real(name, value, list_.getFloat(name), hint);
+}
+
+void ParameterReader::slider(const char* name, double& value, const Hint& hint) {
+    if (list_.hasParameter(name)) value = checked_real(name, value, list_.getDynamicFloat(name), hint);
+}
+
+void ParameterReader::choice(const char* name, int& value, const std::vector<std::string>& names, const Hint& hint) {
+    if (!list_.hasParameter(name)) return;
+    const int given = list_.getEnum(name);
+    if (given < 0 || given >= static_cast<int>(names.size())) {
+        Hint range = hint;
+        range.least = 0, range.most = static_cast<double>(names.size()) - 1;
+        refuse(name, range, given);
+    }
+    value = given;
+}
+
+} // namespace multires::host
