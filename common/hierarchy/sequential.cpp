@@ -150,7 +150,7 @@ private:
         if (rows_[a].vertex.empty()) std::swap(a, b);
         const Ring r = ring(a);
         const Index j = r.find(b);
-        if (j < 0) return -1;
+        if (j < 0 || r.marked(j)) return -1;
         return r.before(j) == v ? r.after(j) : r.before(j);
     }
 

@@ -143,10 +143,11 @@ Index find_in(const Rings& rings, Index row, Index neighbor) {
     return -1;
 }
 
-/// The neighbour of `a` beside `b` in a's ring that is not `not_this`, -1 if there is none.
+/// The neighbour of `a` beside `b` in a's ring that is not `not_this`, -1 if there is none or if the edge {a, b} is a
+/// feature, which no second-order difference crosses.
 Index beside(const Rings& rings, Index a, Index b, Index not_this) {
     const Index j = find_in(rings, a, b), d = rings.size(a);
-    if (j < 0) return -1;
+    if (j < 0 || (!rings.feature.empty() && rings.feature[rings.offset[a] + j])) return -1;
     const Index* r = rings.begin(a);
     const bool closed = rings.kind[a] == RingKind::closed;
     const Index before = j > 0 ? r[j - 1] : closed ? r[d - 1] : -1;

@@ -20,7 +20,7 @@ namespace multires {
 Rings vertex_rings(const Mesh& mesh);
 
 /// Fills Rings::flap of rows that together hold every vertex (row i = vertex i): the vertex across each link edge,
-/// -1 if the link edge lies on the boundary or touches an irregular vertex on both ends.
+/// -1 if the link edge lies on the boundary, is a feature, or touches an irregular vertex on both ends.
 void find_flaps(Rings& rings);
 
 /// Marks as features the edges whose faces' normals differ by more than `degrees` (Rings::feature). Boundary edges

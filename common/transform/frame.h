@@ -1,0 +1,44 @@
+#pragma once
+
+#include "mesh/mesh.h"
+
+#include <cmath>
+
+namespace multires {
+
+/// Orthonormal axes at a vertex of a surface that turn with it: tangent, bitangent, normal (Guskov et al. 1999, 3.2).
+struct Frame {
+    Vec3 t{1, 0, 0}, b{0, 1, 0}, n{0, 0, 1};
+
+    Vec3 to_local(const Vec3& v) const { return {t.dot(v), b.dot(v), n.dot(v)}; }
+    Vec3 to_world(const Vec3& v) const { return t * v.x() + b * v.y() + n * v.z(); }
+};
+
+/// Frame of a 1-ring: normal = area vector of its polygon, tangent = from the middle entry to the first. World axes
+/// where the ring is so thin that rounding would turn the frame: inversion must stay exact.
+/// @param at  gives the position of a vertex
+template <class At>
+Frame ring_frame(const Index* ring, Index size, const At& at) {
+    Frame f;
+    if (size < 3) return f;
+    const Vec3 origin = at(ring[0]);
+    Vec3 area(0, 0, 0), last = at(ring[1]) - origin;
+    double extent = last.squaredNorm();
+    for (Index j = 2; j < size; ++j) {
+        const Vec3 d = at(ring[j]) - origin;
+        area += last.cross(d);
+        extent += d.squaredNorm();
+        last = d;
+    }
+    const double size2 = area.norm();
+    if (!(size2 > 1e-3 * extent)) return f;
+    const Vec3 n = area / size2, across = origin - at(ring[size / 2]), t = across - n * n.dot(across);
+    const double length = t.norm();
+    if (!(length * length > 1e-3 * across.squaredNorm())) return f;
+    f.n = n;
+    f.t = t / length;
+    f.b = f.n.cross(f.t);
+    return f;
+}
+
+}  // namespace multires

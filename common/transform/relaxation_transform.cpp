@@ -1,0 +1,271 @@
+#include "transform/relaxation_transform.h"
+
+#include "transform/frame.h"
+
+#include <algorithm>
+
+namespace multires {
+namespace {
+
+/// Below this many rows a parallel loop costs more than it saves.
+constexpr Index parallel_rows = 2048;
+
+/// Rows of weights over the columns of their rings or, for operators with flaps, over their own.
+struct Stencil {
+    const Rings* rings = nullptr;
+    RingWeights ring;
+    Rows rows;
+    bool own = false;
+
+    const std::vector<Index>& offset() const { return own ? rows.offset : rings->offset; }
+    const std::vector<Index>& column() const { return own ? rows.column : rings->neighbor; }
+    const std::vector<double>& weight() const { return own ? rows.weight : ring.weight; }
+    const std::vector<Index>& kept() const { return own ? rows.kept : ring.kept; }
+};
+
+Stencil make_stencil(const Rings& rings, const Positions& positions, const RelaxationOptions& options) {
+    Stencil s;
+    s.rings = &rings;
+    s.own = uses_flaps(options.op);
+    if (s.own)
+        s.rows = relaxation(rings, positions, options);
+    else
+        s.ring = ring_weights(rings, positions, options);
+    return s;
+}
+
+/// Weighted sums of rows for a width known at compile time (0: at run time).
+template <int Width>
+struct Sums {
+    const Stencil& s;
+    const Index* offset = s.offset().data();
+    const Index* column = s.column().data();
+    const double* weight = s.weight().data();
+
+    void row(Index r, const Field& f, double* out) const {
+        if constexpr (Width > 0) {
+            double sum[Width] = {};
+            for (Index k = offset[r]; k < offset[r + 1]; ++k) {
+                const double* v = f.values.data() + static_cast<std::size_t>(column[k]) * Width;
+                for (int c = 0; c < Width; ++c) sum[c] += weight[k] * v[c];
+            }
+            for (int c = 0; c < Width; ++c) out[c] = sum[c];
+        } else {
+            std::fill_n(out, f.width, 0.0);
+            for (Index k = offset[r]; k < offset[r + 1]; ++k) {
+                const double* v = f.row(column[k]);
+                for (int c = 0; c < f.width; ++c) out[c] += weight[k] * v[c];
+            }
+        }
+    }
+};
+
+/// R f of all rows into `out`; rows that keep their value take it from row keep(r) of f.
+template <int Width, class Keep>
+void relax_rows(const Stencil& s, const Field& f, Field& out, const Keep& keep) {
+    const Sums<Width> sums{s};
+    const Index rows = s.rings->rows();
+#pragma omp parallel for schedule(static) if (rows > parallel_rows)
+    for (Index r = 0; r < rows; ++r) sums.row(r, f, out.row(r));
+    for (const Index r : s.kept()) std::copy_n(f.row(keep(r)), f.width, out.row(r));
+}
+
+template <class Keep>
+void relax_rows(const Stencil& s, const Field& f, Field& out, const Keep& keep) {
+    switch (f.width) {
+    case 1:
+        return relax_rows<1>(s, f, out, keep);
+    case 3:
+        return relax_rows<3>(s, f, out, keep);
+    case 4:
+        return relax_rows<4>(s, f, out, keep);
+    default:
+        return relax_rows<0>(s, f, out, keep);
+    }
+}
+
+class RelaxationTransform final : public Transform {
+public:
+    RelaxationTransform(const Hierarchy& h, const RelaxationTransformOptions& options) : h_(h), options_(options) {
+        for (const Level& level : h.levels) {
+            odd_.push_back(make_stencil(level.odd, h.positions, options.relaxation));
+            even_.push_back(make_stencil(level.even, h.positions, options.relaxation));
+        }
+    }
+
+    Coefficients analyse(const Field& input) const override {
+        Coefficients out;
+        Field f = input;
+        for (std::size_t k = 0; k < h_.levels.size(); ++k) {
+            out.detail.emplace_back();
+            analyse_level(k, f, out.detail.back());
+        }
+        out.base = std::move(f);
+        return out;
+    }
+
+    Field synthesise(const Coefficients& coefficients, const std::vector<double>& gain) const override {
+        Field f = coefficients.base;
+        f.values.reserve(static_cast<std::size_t>(h_.vertices()) * f.width);
+        for (std::size_t k = h_.levels.size(); k-- > 0;)
+            synthesise_level(k, coefficients.detail[k], gain.empty() ? 1 : gain[k], f);
+        return f;
+    }
+
+private:
+    bool framed(const Field& f) const {
+        return options_.scheme == Scheme::guskov && options_.local_frames && f.width >= 3;
+    }
+
+    /// From values of the fine level to those of the coarse one; stores the details.
+    void analyse_level(std::size_t k, Field& f, Coefficients::Detail& d) const {
+        const Level& level = h_.levels[k];
+        const int width = f.width;
+        Field g = f;  // c on even vertices, later the odd ones' f or prediction
+        Field relaxed(level.even.rows(), width);
+        if (options_.presmooth > 0) {
+            relax_rows(even_[k], f, relaxed, [&](Index r) { return level.even.vertex(r); });
+#pragma omp parallel for schedule(static) if (level.even.rows() > parallel_rows)
+            for (Index r = 0; r < level.even.rows(); ++r) {
+                double* c = g.row(level.even.vertex(r));
+                for (int i = 0; i < width; ++i) c[i] += options_.presmooth * (relaxed.row(r)[i] - c[i]);
+            }
+        }
+        d.odd = Field(level.odd.rows(), width);
+        predict_odd(k, g, [&](Index r, const double* predicted, const Frame* frame) {
+            const double* value = f.row(level.coarse + r);
+            store(value, predicted, frame, width, d.odd.row(r));
+            if (options_.scheme == Scheme::guskov) std::copy_n(predicted, width, g.row(level.coarse + r));
+        });
+        relax_rows(even_[k], g, relaxed, [&](Index r) { return level.even.vertex(r); });
+        d.even = Field(level.even.rows(), width);
+        const bool frames = framed(f);
+#pragma omp parallel for schedule(static) if (level.even.rows() > parallel_rows)
+        for (Index r = 0; r < level.even.rows(); ++r) {
+            Frame frame;
+            if (frames) frame = frame_of(level.even, r, g);
+            store(f.row(level.even.vertex(r)), relaxed.row(r), frames ? &frame : nullptr, width, d.even.row(r));
+        }
+        g.values.resize(static_cast<std::size_t>(level.coarse) * width);
+        f = std::move(g);
+    }
+
+    /// The inverse of analyse_level with the details multiplied by `gain`.
+    void synthesise_level(std::size_t k, const Coefficients::Detail& d, double gain, Field& f) const {
+        const Level& level = h_.levels[k];
+        const int width = f.width;
+        const bool guskov = options_.scheme == Scheme::guskov;
+        f.values.resize(static_cast<std::size_t>(level.fine) * width);
+        // Guskov predicts even vertices from predicted odd ones; the odd ones' own values wait until that is done.
+        Field odd(guskov ? level.odd.rows() : 0, width);
+        predict_odd(k, f, [&](Index r, const double* predicted, const Frame* frame) {
+            double* at = f.row(level.coarse + r);
+            double value[max_width];
+            std::vector<double> large(width > max_width ? width : 0);
+            double* to = width > max_width ? large.data() : value;
+            restore(d.odd.row(r), predicted, frame, width, gain, to);
+            std::copy_n(guskov ? predicted : to, width, at);
+            if (guskov) std::copy_n(to, width, odd.row(r));
+        });
+        Field relaxed(level.even.rows(), width);
+        relax_rows(even_[k], f, relaxed, [&](Index r) { return level.even.vertex(r); });
+        const bool frames = framed(f);
+        if (frames) {  // in place: frames need the old values of all
+#pragma omp parallel for schedule(static) if (level.even.rows() > parallel_rows)
+            for (Index r = 0; r < level.even.rows(); ++r) {
+                const Frame frame = frame_of(level.even, r, f);
+                double* to = relaxed.row(r);
+                restore(d.even.row(r), to, &frame, width, gain, to);
+            }
+        }
+#pragma omp parallel for schedule(static) if (level.even.rows() > parallel_rows)
+        for (Index r = 0; r < level.even.rows(); ++r) {
+            double* to = f.row(level.even.vertex(r));
+            if (frames)
+                std::copy_n(relaxed.row(r), width, to);
+            else
+                restore(d.even.row(r), relaxed.row(r), nullptr, width, gain, to);
+        }
+        if (guskov) std::copy(odd.values.begin(), odd.values.end(), f.row(level.coarse));
+    }
+
+    /// Predicts every odd vertex from g and hands (row, prediction, frame or null) to `take`, which may write g at that
+    /// vertex. In order where odd vertices depend on each other.
+    template <class Take>
+    void predict_odd(std::size_t k, const Field& g, const Take& take) const {
+        switch (g.width) {
+        case 1:
+            return predict_odd<1>(k, g, take);
+        case 3:
+            return predict_odd<3>(k, g, take);
+        case 4:
+            return predict_odd<4>(k, g, take);
+        default:
+            return predict_odd<0>(k, g, take);
+        }
+    }
+
+    template <int Width, class Take>
+    void predict_odd(std::size_t k, const Field& g, const Take& take) const {
+        const Level& level = h_.levels[k];
+        const Sums<Width> sums{odd_[k]};
+        const bool frames = framed(g);
+        const std::vector<Index>& kept = odd_[k].kept();
+        const auto one = [&](Index r) {
+            double value[max_width];
+            std::vector<double> large(g.width > max_width ? g.width : 0);
+            double* predicted = g.width > max_width ? large.data() : value;
+            if (!kept.empty() && std::binary_search(kept.begin(), kept.end(), r))
+                std::copy_n(g.row(h_.parent[level.coarse + r]), g.width, predicted);
+            else
+                sums.row(r, g, predicted);
+            Frame frame;
+            if (frames) frame = frame_of(level.odd, r, g);
+            take(r, predicted, frames ? &frame : nullptr);
+        };
+        if (level.independent) {
+#pragma omp parallel for schedule(static) if (level.odd.rows() > parallel_rows)
+            for (Index r = 0; r < level.odd.rows(); ++r) one(r);
+        } else {
+            for (Index r = 0; r < level.odd.rows(); ++r) one(r);
+        }
+    }
+
+    static Frame frame_of(const Rings& rings, Index r, const Field& g) {
+        return ring_frame(rings.begin(r), rings.size(r), [&](Index v) {
+            const double* p = g.row(v);
+            return Vec3(p[0], p[1], p[2]);
+        });
+    }
+
+    static void store(const double* value, const double* predicted, const Frame* frame, int width, double* detail) {
+        for (int c = 0; c < width; ++c) detail[c] = value[c] - predicted[c];
+        if (!frame) return;
+        const Vec3 local = frame->to_local(Vec3(detail[0], detail[1], detail[2]));
+        std::copy_n(local.data(), 3, detail);
+    }
+
+    static void restore(const double* detail, const double* predicted, const Frame* frame, int width, double gain,
+                        double* value) {
+        int c = 0;
+        if (frame) {
+            const Vec3 world = frame->to_world(Vec3(detail[0], detail[1], detail[2]));
+            for (; c < 3; ++c) value[c] = predicted[c] + gain * world[c];
+        }
+        for (; c < width; ++c) value[c] = predicted[c] + gain * detail[c];
+    }
+
+    static constexpr int max_width = 16;
+
+    const Hierarchy& h_;
+    RelaxationTransformOptions options_;
+    std::vector<Stencil> odd_, even_;
+};
+
+}  // namespace
+
+std::unique_ptr<Transform> relaxation_transform(const Hierarchy& hierarchy, const RelaxationTransformOptions& options) {
+    return std::make_unique<RelaxationTransform>(hierarchy, options);
+}
+
+}  // namespace multires

@@ -1,0 +1,33 @@
+#include "transform/transform.h"
+
+#include <algorithm>
+
+namespace multires {
+
+Field to_places(const Hierarchy& hierarchy, const Field& input) {
+    Field out(input.rows(), input.width);
+#pragma omp parallel for schedule(static)
+    for (Index p = 0; p < out.rows(); ++p) std::copy_n(input.row(hierarchy.order[p]), input.width, out.row(p));
+    return out;
+}
+
+Field to_input(const Hierarchy& hierarchy, const Field& places) {
+    Field out(places.rows(), places.width);
+#pragma omp parallel for schedule(static)
+    for (Index p = 0; p < out.rows(); ++p) std::copy_n(places.row(p), places.width, out.row(hierarchy.order[p]));
+    return out;
+}
+
+Field field_of(const Positions& positions) {
+    Field f(static_cast<Index>(positions.size()), 3);
+    for (Index i = 0; i < f.rows(); ++i) std::copy_n(positions[i].data(), 3, f.row(i));
+    return f;
+}
+
+Positions positions_of(const Field& field) {
+    Positions p(field.rows());
+    for (Index i = 0; i < field.rows(); ++i) p[i] = Vec3(field.row(i)[0], field.row(i)[1], field.row(i)[2]);
+    return p;
+}
+
+}  // namespace multires

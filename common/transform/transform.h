@@ -1,0 +1,54 @@
+#pragma once
+
+#include "hierarchy/hierarchy.h"
+
+#include <memory>
+#include <vector>
+
+namespace multires {
+
+/// Channels at vertices, interleaved: row r, channel c is values[r * width + c].
+struct Field {
+    int width = 3;
+    std::vector<double> values;  ///< #rows by width, row-major
+
+    Field() = default;
+    Field(Index rows, int w) : width(w), values(static_cast<std::size_t>(rows) * w) {}
+    Index rows() const { return static_cast<Index>(values.size() / width); }
+    double* row(Index r) { return values.data() + static_cast<std::size_t>(r) * width; }
+    const double* row(Index r) const { return values.data() + static_cast<std::size_t>(r) * width; }
+};
+
+/// A field as a transform stores it: the coarsest values, and the details lost from level to level.
+struct Coefficients {
+    struct Detail {
+        Field odd;   ///< aligned with Level::odd
+        Field even;  ///< aligned with Level::even; no rows in critically sampled schemes
+    };
+    Field base;                  ///< at places 0..size.back()-1
+    std::vector<Detail> detail;  ///< details[k] belongs to levels[k]; 0 is the finest
+};
+
+/// Splits any channels into a coarse part and details over a hierarchy, and puts them together again.
+///
+/// Schemes differ in how they predict; all are exact: synthesise(analyse(f)) gives f back up to rounding. A transform
+/// refers to its hierarchy, which must outlive it.
+class Transform {
+public:
+    virtual ~Transform() = default;
+
+    /// @param f  #V rows in order of places. If the scheme uses local frames, channels 0..2 are the positions.
+    virtual Coefficients analyse(const Field& f) const = 0;
+
+    /// @param gain  one factor per level for its details, finest first; empty: all 1
+    /// @returns     #V rows in order of places
+    virtual Field synthesise(const Coefficients& coefficients, const std::vector<double>& gain = {}) const = 0;
+};
+
+/// Copies values from order of input to order of places, and back.
+Field to_places(const Hierarchy& hierarchy, const Field& input);
+Field to_input(const Hierarchy& hierarchy, const Field& places);
+Field field_of(const Positions& positions);
+Positions positions_of(const Field& field);
+
+}  // namespace multires
