@@ -1,0 +1,11 @@
+#!/bin/bash
+# Builds the plugins for pymeshlab and shows what they do, on the Stanford bunny or on a mesh of yours:
+#   scripts/demo.sh [MESH]
+# Results are in demo-output/.
+set -euo pipefail
+[ $# -eq 0 ] || mesh=$(realpath "$1")
+cd "$(dirname "$0")/.."
+scripts/setup.sh demo
+cmake --preset pymeshlab-2025.07 --log-level=WARNING
+cmake --build --preset pymeshlab-2025.07 --target plugins
+.venv/bin/python tools/demo.py ${mesh:+"$mesh"}
