@@ -1,0 +1,254 @@
+#include "mesh/validation.h"
+
+#include "mesh/adjacency.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <numeric>
+#include <string>
+#include <utility>
+
+namespace multires {
+
+namespace {
+
+constexpr double degenerate_tolerance = 1e-10;  // as in operators/ and measure/
+constexpr double least_diagonal = 1e-70, most_diagonal = 1e70;
+
+bool repeats_an_index(const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
+
+bool has_area(const Face& f, const Positions& p) {
+    const Vec3 a = p[f[1]] - p[f[0]], b = p[f[2]] - p[f[1]], c = p[f[0]] - p[f[2]];
+    return a.cross(b).norm() > degenerate_tolerance * (a.squaredNorm() + b.squaredNorm() + c.squaredNorm());
+}
+
+/// Items sorted into buckets 0 .. buckets-1 in linear time, in their order.
+struct Buckets {
+    std::vector<Index> first, item;  // items of bucket b: item[first[b] .. first[b+1])
+
+    template <class BucketOf>
+    Buckets(Index buckets, Index items, BucketOf bucket_of) : first(buckets + 1, 0), item(items) {
+        for (Index i = 0; i < items; ++i) ++first[bucket_of(i) + 1];
+        std::partial_sum(first.begin(), first.end(), first.begin());
+        std::vector<Index> next(first.begin(), first.end() - 1);
+        for (Index i = 0; i < items; ++i) item[next[bucket_of(i)]++] = i;
+    }
+    Index buckets() const { return static_cast<Index>(first.size()) - 1; }
+};
+
+/// Disjoint sets of 0 .. n-1; each element may be known to lie on the other side (1) or the same side (0) of its
+/// parent.
+struct Sets {
+    explicit Sets(Index n) : parent(n), side(n, 0) { std::iota(parent.begin(), parent.end(), 0); }
+
+    std::pair<Index, std::uint8_t> find(Index i) {
+        std::uint8_t s = 0;
+        while (parent[i] != i) {
+            side[i] ^= side[parent[i]];
+            parent[i] = parent[parent[i]];
+            s ^= side[i];
+            i = parent[i];
+        }
+        return {i, s};
+    }
+    /// Joins the sets of i and j, which lie on the same or different sides; false if they were known to be otherwise.
+    bool join(Index i, Index j, std::uint8_t different = 0) {
+        const auto [a, s] = find(i);
+        const auto [b, t] = find(j);
+        if (a == b) return (s ^ t) == different;
+        parent[b] = a;
+        side[b] = s ^ t ^ different;
+        return true;
+    }
+
+    std::vector<Index> parent;
+    std::vector<std::uint8_t> side;
+};
+
+/// The faces that count, their indices in ascending order.
+Faces sorted_faces(const Faces& faces) {
+    Faces sorted;
+    sorted.reserve(faces.size());
+    for (Face f : faces) {
+        if (repeats_an_index(f)) continue;
+        std::sort(f.begin(), f.end());
+        sorted.push_back(f);
+    }
+    return sorted;
+}
+
+Index count_unreferenced(const Mesh& mesh) {
+    std::vector<std::uint8_t> referenced(mesh.positions.size(), 0);
+    for (const Face& f : mesh.faces)
+        for (Index v : f) referenced[v] = 1;
+    return static_cast<Index>(std::count(referenced.begin(), referenced.end(), 0));
+}
+
+Index count_duplicate_vertices(const Positions& positions) {
+    const auto n = static_cast<Index>(positions.size());
+    if (n == 0) return 0;
+    const auto bucket_of = [&](Index i) {
+        std::uint64_t hash = 0;
+        for (int k = 0; k < 3; ++k) {
+            const double x = positions[i][k] + 0.0;  // one zero, not two
+            std::uint64_t bits = 0;
+            std::memcpy(&bits, &x, sizeof bits);
+            hash = (hash ^ bits) * 0x9E3779B97F4A7C15U;
+            hash ^= hash >> 32;
+        }
+        return static_cast<Index>(hash % static_cast<std::uint64_t>(n));
+    };
+    Buckets buckets(n, n, bucket_of);
+    const auto less = [&](Index i, Index j) {
+        const Vec3 &a = positions[i], &b = positions[j];
+        return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+    };
+    Index count = 0;
+    for (Index b = 0; b < n; ++b) {
+        const auto begin = buckets.item.begin() + buckets.first[b], end = buckets.item.begin() + buckets.first[b + 1];
+        if (end - begin < 2) continue;
+        std::sort(begin, end, less);
+        for (auto i = begin + 1; i != end; ++i) count += positions[*(i - 1)] == positions[*i];
+    }
+    return count;
+}
+
+Index count_duplicate_faces(Index vertices, const Faces& sorted) {
+    Buckets buckets(vertices, static_cast<Index>(sorted.size()), [&](Index f) { return sorted[f][0]; });
+    Index count = 0;
+    for (Index v = 0; v < vertices; ++v) {
+        const auto begin = buckets.item.begin() + buckets.first[v], end = buckets.item.begin() + buckets.first[v + 1];
+        std::sort(begin, end, [&](Index f, Index g) { return sorted[f] < sorted[g]; });
+        for (auto i = begin; i != end && i + 1 != end; ++i) count += sorted[*i] == sorted[*(i + 1)];
+    }
+    return count;
+}
+
+/// One side of a face, as seen from its smaller vertex.
+struct Side {
+    Index other;  // the larger vertex
+    Index face;
+    bool upward;  // passed from the smaller to the larger one
+};
+
+/// Calls visit(smaller vertex, first side, last side) for every edge of the faces that count.
+template <class Visit>
+void for_each_edge(const Mesh& mesh, Visit visit) {
+    const Faces& faces = mesh.faces;
+    const auto smaller = [&](Index c) { return std::min(faces[c / 3][c % 3], faces[c / 3][(c + 1) % 3]); };
+    const auto larger = [&](Index c) { return std::max(faces[c / 3][c % 3], faces[c / 3][(c + 1) % 3]); };
+    const Buckets buckets(static_cast<Index>(mesh.positions.size()), static_cast<Index>(3 * faces.size()), smaller);
+    std::vector<Side> sides;
+    for (Index v = 0; v < buckets.buckets(); ++v) {
+        sides.clear();
+        for (Index i = buckets.first[v]; i < buckets.first[v + 1]; ++i) {
+            const Index c = buckets.item[i];
+            if (!repeats_an_index(faces[c / 3])) sides.push_back({larger(c), c / 3, faces[c / 3][c % 3] == v});
+        }
+        std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+            return std::make_pair(a.other, a.face) < std::make_pair(b.other, b.face);
+        });
+        for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
+            while (j < sides.size() && sides[j].other == sides[i].other) ++j;
+            visit(v, sides.data() + i, sides.data() + j);
+        }
+    }
+}
+
+void count_edges(const Mesh& mesh, InputCounts& counts) {
+    std::vector<std::pair<Index, Index>> boundary;
+    for_each_edge(mesh, [&](Index v, const Side* begin, const Side* end) {
+        if (end - begin == 1) boundary.emplace_back(v, begin->other);
+        counts.non_manifold_edges += end - begin > 2;
+        counts.inconsistent_edges += end - begin == 2 && begin[0].upward == begin[1].upward;
+    });
+    counts.boundary_edges = static_cast<Index>(boundary.size());
+    if (boundary.empty()) return;
+    Sets loops(static_cast<Index>(mesh.positions.size()));
+    std::vector<std::uint8_t> root(mesh.positions.size(), 0);
+    for (const auto& [a, b] : boundary) loops.join(a, b);
+    for (const auto& [a, b] : boundary) root[loops.find(a).first] = 1;
+    counts.boundary_loops = static_cast<Index>(std::count(root.begin(), root.end(), 1));
+}
+
+Index count_components(const Mesh& mesh) {
+    Sets sets(static_cast<Index>(mesh.positions.size()));
+    std::vector<std::uint8_t> root(mesh.positions.size(), 0);
+    for (const Face& f : mesh.faces)
+        if (!repeats_an_index(f)) sets.join(f[0], f[1]), sets.join(f[0], f[2]);
+    for (const Face& f : mesh.faces)
+        if (!repeats_an_index(f)) root[sets.find(f[0]).first] = 1;
+    return static_cast<Index>(std::count(root.begin(), root.end(), 1));
+}
+
+Index count_non_orientable(const Mesh& mesh) {
+    Sets sets(static_cast<Index>(mesh.faces.size()));
+    std::vector<Index> contradictions;
+    for_each_edge(mesh, [&](Index, const Side* begin, const Side* end) {
+        if (end - begin != 2) return;
+        if (!sets.join(begin[0].face, begin[1].face, begin[0].upward == begin[1].upward))
+            contradictions.push_back(begin[0].face);
+    });
+    for (Index& f : contradictions) f = sets.find(f).first;
+    std::sort(contradictions.begin(), contradictions.end());
+    return static_cast<Index>(std::unique(contradictions.begin(), contradictions.end()) - contradictions.begin());
+}
+
+void require_finite(const Positions& positions) {
+    std::size_t count = 0, first = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        if (positions[i].allFinite()) continue;
+        if (count++ == 0) first = i;
+    }
+    if (count == 0) return;
+    throw InputError(std::to_string(count) + (count == 1 ? " vertex has" : " vertices have") +
+                     " a coordinate that is not a number or infinite (the first is vertex " + std::to_string(first) +
+                     "). Delete " + (count == 1 ? "it" : "them") + " first.");
+}
+
+void require_extent(const Positions& positions) {
+    Vec3 low = positions[0], high = positions[0];
+    for (const Vec3& p : positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    const double diagonal = (high - low).stableNorm();
+    if (diagonal == 0) throw InputError("All vertices of the mesh are at the same point.");
+    if (!(diagonal > least_diagonal && diagonal < most_diagonal))
+        throw InputError(std::string("The mesh is too ") + (diagonal < 1 ? "small" : "large") +
+                         " to compute with: scale it to an ordinary size first.");
+}
+
+}  // namespace
+
+InputCounts count_input(const Mesh& mesh, const Rings& rings) {
+    InputCounts counts;
+    counts.vertices = static_cast<Index>(mesh.positions.size());
+    counts.faces = static_cast<Index>(mesh.faces.size());
+    counts.unreferenced_vertices = count_unreferenced(mesh);
+    counts.duplicate_vertices = count_duplicate_vertices(mesh.positions);
+    const Faces sorted = sorted_faces(mesh.faces);
+    counts.degenerate_faces = static_cast<Index>(mesh.faces.size() - sorted.size());
+    counts.zero_area_faces = static_cast<Index>(
+        std::count_if(sorted.begin(), sorted.end(), [&](const Face& f) { return !has_area(f, mesh.positions); }));
+    counts.duplicate_faces = count_duplicate_faces(counts.vertices, sorted);
+    counts.non_manifold_vertices =
+        static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::irregular));
+    count_edges(mesh, counts);
+    counts.components = count_components(mesh);
+    if (counts.inconsistent_edges > 0) counts.non_orientable_components = count_non_orientable(mesh);
+    return counts;
+}
+
+InputCounts count_input(const Mesh& mesh) { return count_input(mesh, vertex_rings(mesh)); }
+
+void require_usable(const Mesh& mesh) {
+    if (mesh.positions.empty()) throw InputError("The mesh is empty: it has no vertices.");
+    if (mesh.faces.empty()) throw InputError("The mesh has no faces: a point cloud has to be meshed first.");
+    require_finite(mesh.positions);
+    require_extent(mesh.positions);
+    if (std::none_of(mesh.faces.begin(), mesh.faces.end(),
+                     [&](const Face& f) { return !repeats_an_index(f) && has_area(f, mesh.positions); }))
+        throw InputError("None of the " + std::to_string(mesh.faces.size()) +
+                         " faces has an area: they are all degenerate.");
+}
+
+}  // namespace multires

@@ -1,0 +1,41 @@
+#pragma once
+
+#include "hierarchy/rings.h"
+#include "mesh/error.h"
+#include "mesh/mesh.h"
+
+namespace multires {
+
+/// What is unusual about an input; all of it is handled, and none of it is changed.
+struct InputCounts {
+    Index vertices = 0, faces = 0;
+    Index unreferenced_vertices = 0;  ///< in no face
+    Index duplicate_vertices = 0;     ///< at exactly the position of a vertex before them
+    Index degenerate_faces = 0;       ///< with a repeated index; no other count below looks at them
+    Index zero_area_faces = 0;        ///< three different indices, but 2 area <= 1e-10 x sum of squared edge lengths
+    Index duplicate_faces = 0;        ///< with the vertices, in any order, of a face before them
+    Index boundary_edges = 0;         ///< in one face
+    Index boundary_loops = 0;         ///< boundary edges that hang together; loops that touch count as one
+    Index non_manifold_edges = 0;     ///< in three faces or more
+    Index non_manifold_vertices = 0;  ///< RingKind::irregular: these are never moved or removed
+    Index inconsistent_edges = 0;     ///< in two faces that pass it in the same direction
+    Index components = 0;             ///< sets of faces that hang together at vertices
+    Index non_orientable_components = 0;  ///< sets of faces that hang together at edges of two faces, Möbius bands
+};
+
+/// Counts what is unusual.
+/// @param mesh   face indices in range
+/// @param rings  its vertex_rings()
+/// Cost: linear in the mesh for bounded valences.
+InputCounts count_input(const Mesh& mesh, const Rings& rings);
+InputCounts count_input(const Mesh& mesh);
+
+/// Does nothing if filters can work on the mesh.
+/// @throws InputError  for no vertices, no faces, coordinates that are not finite, a box whose diagonal is zero or
+/// beyond
+///                     what can be squared safely (outside 1e-70 .. 1e70), or no face with an area; with a message for
+///                     the user
+/// Cost: linear.
+void require_usable(const Mesh& mesh);
+
+}  // namespace multires
