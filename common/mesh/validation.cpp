@@ -125,6 +125,19 @@ Index count_duplicate_faces(Index vertices, const Faces& sorted) {
     return count;
 }
 
+void count_vertices(const Mesh& mesh, InputCounts& counts) {
+    counts.unreferenced_vertices = count_unreferenced(mesh);
+    counts.duplicate_vertices = count_duplicate_vertices(mesh.positions);
+}
+
+void count_faces(const Mesh& mesh, InputCounts& counts) {
+    const Faces sorted = sorted_faces(mesh.faces);
+    counts.degenerate_faces = static_cast<Index>(mesh.faces.size() - sorted.size());
+    counts.zero_area_faces = static_cast<Index>(
+        std::count_if(sorted.begin(), sorted.end(), [&](const Face& f) { return !has_area(f, mesh.positions); }));
+    counts.duplicate_faces = count_duplicate_faces(counts.vertices, sorted);
+}
+
 /// One side of a face, as seen from its smaller vertex.
 struct Side {
     Index other;  // the larger vertex
@@ -223,17 +236,19 @@ InputCounts count_input(const Mesh& mesh, const Rings& rings) {
     InputCounts counts;
     counts.vertices = static_cast<Index>(mesh.positions.size());
     counts.faces = static_cast<Index>(mesh.faces.size());
-    counts.unreferenced_vertices = count_unreferenced(mesh);
-    counts.duplicate_vertices = count_duplicate_vertices(mesh.positions);
-    const Faces sorted = sorted_faces(mesh.faces);
-    counts.degenerate_faces = static_cast<Index>(mesh.faces.size() - sorted.size());
-    counts.zero_area_faces = static_cast<Index>(
-        std::count_if(sorted.begin(), sorted.end(), [&](const Face& f) { return !has_area(f, mesh.positions); }));
-    counts.duplicate_faces = count_duplicate_faces(counts.vertices, sorted);
     counts.non_manifold_vertices =
         static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::irregular));
-    count_edges(mesh, counts);
-    counts.components = count_components(mesh);
+#pragma omp parallel sections
+    {
+#pragma omp section
+        count_edges(mesh, counts);
+#pragma omp section
+        count_vertices(mesh, counts);
+#pragma omp section
+        count_faces(mesh, counts);
+#pragma omp section
+        counts.components = count_components(mesh);
+    }
     if (counts.inconsistent_edges > 0) counts.non_orientable_components = count_non_orientable(mesh);
     return counts;
 }
