@@ -143,45 +143,65 @@ bool RowRelaxation::nothing_left(const Star& star, double* weight) const {
 }
 
 void RowRelaxation::flap_slots(const Star& star) {
+    if (star.size > static_cast<Index>(slot_.size())) {
+        slot_.resize(2 * star.size);
+        extra_.resize(2 * star.size);
+    }
+    extra_count_ = 0;
+    if (star.kind != RingKind::closed) return;
+    star.size > 64 ? hash_flaps(star) : search_flaps(star);
+}
+
+void RowRelaxation::search_flaps(const Star& star) {
     const Index n = star.size;
     const Index* const ring_end = star.neighbor + n;
-    slot_.assign(n, -1);
-    extra_.clear();
-    if (star.kind != RingKind::closed) return;
-    std::unordered_map<Index, Index> slots;
-    if (n > 64) {
-        for (Index j = 0; j < n; ++j) slots.emplace(star.neighbor[j], j);
-    }
+    Index* const extra = extra_.data();
+    Index count = 0;
+    // Most flaps are new: one bit per vertex number modulo 64 tells nearly all of them without a search.
+    const auto bit = [](Index v) { return std::uint64_t{1} << (v & 63); };
+    std::uint64_t seen = 0;
+    for (Index j = 0; j < n; ++j) seen |= bit(star.neighbor[j]);
     for (Index j = 0; j < n; ++j) {
         const Index f = star.flap[j];
+        slot_[j] = -1;
         if (f < 0 || f == star.vertex) continue;
-        if (n > 64) {
-            const auto [at, is_new] = slots.emplace(f, n + static_cast<Index>(extra_.size()));
-            slot_[j] = at->second;
-            if (is_new) extra_.push_back(f);
-            continue;
+        if ((seen & bit(f)) != 0) {
+            const Index* const in_ring = std::find(star.neighbor, ring_end, f);
+            const Index* const known = std::find(extra, extra + count, f);
+            if (in_ring != ring_end) slot_[j] = static_cast<Index>(in_ring - star.neighbor);
+            if (known != extra + count) slot_[j] = n + static_cast<Index>(known - extra);
+            if (slot_[j] >= 0) continue;
         }
-        const auto in_ring = std::find(star.neighbor, ring_end, f);
-        if (in_ring != ring_end) {
-            slot_[j] = static_cast<Index>(in_ring - star.neighbor);
-            continue;
-        }
-        const auto known = std::find(extra_.begin(), extra_.end(), f);
-        slot_[j] = n + static_cast<Index>(known - extra_.begin());
-        if (known == extra_.end()) extra_.push_back(f);
+        seen |= bit(f);
+        slot_[j] = n + count;
+        extra[count++] = f;
+    }
+    extra_count_ = count;
+}
+
+void RowRelaxation::hash_flaps(const Star& star) {
+    std::unordered_map<Index, Index> slots;
+    for (Index j = 0; j < star.size; ++j) slots.emplace(star.neighbor[j], j);
+    for (Index j = 0; j < star.size; ++j) {
+        const Index f = star.flap[j];
+        slot_[j] = -1;
+        if (f < 0 || f == star.vertex) continue;
+        const auto [at, is_new] = slots.emplace(f, star.size + extra_count_);
+        slot_[j] = at->second;
+        if (is_new) extra_[extra_count_++] = f;
     }
 }
 
 Index RowRelaxation::flap_columns(const Star& star) {
     flap_slots(star);
-    return star.size + static_cast<Index>(extra_.size());
+    return star.size + extra_count_;
 }
 
 bool RowRelaxation::flaps(const Star& star, const Positions& positions, Index* column, double* weight) {
     flap_slots(star);
-    const Index columns = star.size + static_cast<Index>(extra_.size());
+    const Index columns = star.size + extra_count_;
     std::copy_n(star.neighbor, star.size, column);
-    std::copy(extra_.begin(), extra_.end(), column + star.size);
+    std::copy_n(extra_.data(), extra_count_, column + star.size);
     const Curve curve = rule(star);
     if (curve.rule != Rule::disk) {
         std::fill_n(weight, columns, 0.0);

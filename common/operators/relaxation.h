@@ -127,12 +127,16 @@ private:
     Curve rule(const Star& star) const;
     bool nothing_left(const Star& star, double* weight) const;
     void flap_slots(const Star& star);
+    void search_flaps(const Star& star);
+    void hash_flaps(const Star& star);
 
     RelaxationOptions options_;
     double largest_cotangent_;  ///< of smallest_angle
     StarGeometry geometry_;
-    std::vector<Index> slot_;   ///< of the last star: entry of the row that each flap adds to, -1 if there is no flap
-    std::vector<Index> extra_;  ///< of the last star: flap vertices that are not in the ring
+    // Of the last star with flaps:
+    std::vector<Index> slot_;   ///< entry of the row that each flap adds to, -1 if there is no flap
+    std::vector<Index> extra_;  ///< flap vertices that are not in the ring
+    Index extra_count_ = 0;
 };
 
 }  // namespace multires

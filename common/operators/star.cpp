@@ -23,33 +23,35 @@ void StarGeometry::reserve(Index n) {
 
 void StarGeometry::load(const Star& star, const Positions& positions, double degenerate) {
     reserve(star.size);
-    const Index n = size;
     const Vec3 center = positions[star.vertex];
-    for (Index j = 0; j < n; ++j) {
-        const Vec3& p = positions[star.neighbor[j]];
-        x[j] = p.x() - center.x();
-        y[j] = p.y() - center.y();
-        z[j] = p.z() - center.z();
-    }
-    x[n] = x[0];
-    y[n] = y[0];
-    z[n] = z[0];
-    for (Index j = 0; j <= n; ++j) square[j] = x[j] * x[j] + y[j] * y[j] + z[j] * z[j];
-    for (Index j = 0; j < n; ++j) {
-        const double d = x[j] * x[j + 1] + y[j] * y[j + 1] + z[j] * z[j + 1];
-        const double cx = y[j] * z[j + 1] - z[j] * y[j + 1];
-        const double cy = z[j] * x[j + 1] - x[j] * z[j + 1];
-        const double cz = x[j] * y[j + 1] - y[j] * x[j + 1];
-        const double a = std::sqrt(cx * cx + cy * cy + cz * cz);
-        const double squares = 2 * (square[j] + square[j + 1] - d);  // all three sides
-        const bool is_solid = a > degenerate * squares;
-        const double inverse = (is_solid ? 1.0 : 0.0) / (is_solid ? a : 1.0);
-        dot[j] = d;
-        area[j] = a;
-        solid[j] = is_solid ? 1.0 : 0.0;
-        cot0[j] = d * inverse;
-        cot1[j] = (square[j] - d) * inverse;
-        cot2[j] = (square[j + 1] - d) * inverse;
+    const auto spoke = [&](Index j) -> Vec3 { return positions[star.neighbor[j]] - center; };
+    const auto keep = [this](Index j, const Vec3& s, double squared) {
+        x[j] = s.x();
+        y[j] = s.y();
+        z[j] = s.z();
+        square[j] = squared;
+    };
+    const Vec3 first = spoke(0);
+    const double first_square = first.squaredNorm();
+    keep(0, first, first_square);
+    // Both spokes of a triangle stay in registers: reading back what was just written would stall.
+    Vec3 s = first;
+    double ss = first_square;
+    for (Index j = 0; j < size; ++j) {
+        const Vec3 t = j + 1 < size ? spoke(j + 1) : first;
+        const double tt = j + 1 < size ? t.squaredNorm() : first_square;
+        const double st = s.dot(t), cross = s.cross(t).norm();
+        const bool is_solid = cross > degenerate * 2 * (ss + tt - st);  // all three sides
+        const double inverse = is_solid ? 1 / cross : 0;
+        keep(j + 1, t, tt);
+        dot[j] = st;
+        area[j] = cross;
+        solid[j] = is_solid ? 1 : 0;
+        cot0[j] = st * inverse;
+        cot1[j] = (ss - st) * inverse;
+        cot2[j] = (tt - st) * inverse;
+        s = t;
+        ss = tt;
     }
 }
 

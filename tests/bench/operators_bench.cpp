@@ -1,0 +1,83 @@
+// Cost of relaxation weights per row on one thread, beside a plain gather of the ring positions (the memory traffic
+// that any operator has).
+
+#include "mesh/adjacency.h"
+#include "operators/relaxation.h"
+#include "shapes.h"
+
+#include <benchmark/benchmark.h>
+#include <omp.h>
+
+namespace {
+
+using namespace multires;
+
+struct Input {
+    Mesh mesh = shapes::scan(200000);
+    Rings rings = vertex_rings(mesh);
+    Input() { find_flaps(rings); }
+};
+
+const Input& input() {
+    static const Input kept;
+    return kept;
+}
+
+void per_row(benchmark::State& state) {
+    state.counters["per_row"] =
+        benchmark::Counter(static_cast<double>(input().rings.rows()),
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void GatherRings(benchmark::State& state) {
+    const Input& in = input();
+    std::vector<double> weight(in.rings.neighbor.size());
+    for (auto _ : state) {
+        for (Index r = 0; r < in.rings.rows(); ++r) {
+            const Vec3 center = in.mesh.positions[in.rings.vertex(r)];
+            for (Index k = in.rings.offset[r]; k < in.rings.offset[r + 1]; ++k) {
+                weight[k] = (in.mesh.positions[in.rings.neighbor[k]] - center).x();
+            }
+        }
+        benchmark::DoNotOptimize(weight.data());
+    }
+    per_row(state);
+}
+
+void Weights(benchmark::State& state, Operator op) {
+    const Input& in = input();
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1);
+    RelaxationOptions options;
+    options.op = op;
+    for (auto _ : state) {
+        if (uses_flaps(op)) {
+            benchmark::DoNotOptimize(relaxation(in.rings, in.mesh.positions, options).weight.data());
+        } else {
+            benchmark::DoNotOptimize(ring_weights(in.rings, in.mesh.positions, options).weight.data());
+        }
+    }
+    omp_set_num_threads(threads);
+    per_row(state);
+}
+
+void Relaxed(benchmark::State& state) {
+    const Input& in = input();
+    const int threads = omp_get_max_threads();
+    omp_set_num_threads(1);
+    const RingWeights weights = ring_weights(in.rings, in.mesh.positions);
+    for (auto _ : state) benchmark::DoNotOptimize(relaxed(in.rings, weights, in.mesh.positions).data());
+    omp_set_num_threads(threads);
+    per_row(state);
+}
+
+BENCHMARK(GatherRings)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Weights, umbrella, Operator::umbrella)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Weights, cotangent, Operator::cotangent)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Weights, cotangent_clamped, Operator::cotangent_clamped)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Weights, cotangent_delaunay, Operator::cotangent_delaunay)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Weights, second_difference, Operator::second_difference)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(Weights, second_difference_flaps, Operator::second_difference_flaps)->Unit(benchmark::kMillisecond);
+BENCHMARK(Relaxed)->Unit(benchmark::kMillisecond);
+
+}  // namespace
