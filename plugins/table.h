@@ -14,11 +14,11 @@ namespace multires::plugin {
 /// Text and range of one parameter.
 struct Hint {
     std::string label;
-    std::string tooltip;      ///< what a value does, and in which unit
-    double least = -1e300;    ///< smallest and largest sensible value, inclusive
+    std::string tooltip;    ///< what a value does, and in which unit
+    double least = -1e300;  ///< smallest and largest sensible value, inclusive
     double most = 1e300;
-    bool advanced = false;    ///< folded away in the dialog where the host can
-    std::string group = "";   ///< heading in the dialog where the host has headings
+    bool advanced = false;   ///< folded away in the dialog where the host can
+    std::string group = "";  ///< heading in the dialog where the host has headings
 };
 
 /// Visits the parameters of a filter: one call a parameter, used both to declare it (the default is the value found
@@ -45,7 +45,7 @@ public:
 /// Sets of mesh parts, for preconditions and postconditions.
 enum Parts : std::uint32_t {
     none = 0,
-    faces = 1,             ///< pre: the mesh has faces; post: number of faces changes
+    faces = 1,  ///< pre: the mesh has faces; post: number of faces changes
     vertex_positions = 2,
     vertex_quality = 4,
     vertex_color = 8,
@@ -63,9 +63,9 @@ struct Filter {
     std::string python_name;  ///< "apply_coord_multires_low_pass"
     std::string info;         ///< HTML, ends with the citation
     MenuClass menu_class;
-    std::uint32_t needs;      ///< Parts the mesh must have
-    std::uint32_t reads;      ///< attributes to be put into the Layer (vertex_quality, vertex_color, ...)
-    std::uint32_t changes;    ///< Parts the filter may change
+    std::uint32_t needs;    ///< Parts the mesh must have
+    std::uint32_t reads;    ///< attributes to be put into the Layer (vertex_quality, vertex_color, ...)
+    std::uint32_t changes;  ///< Parts the filter may change
 
     /// Declares or reads the parameters; the defaults are derived from the layer (null: no mesh, use fixed ones).
     std::function<void(Parameters&, const Layer*)> parameters;
@@ -98,4 +98,4 @@ struct Plugin {
 /// The table of a plugin; each plugin's source defines it.
 const Plugin& table();
 
-} // namespace multires::plugin
+}  // namespace multires::plugin

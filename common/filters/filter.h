@@ -73,10 +73,10 @@ private:
 
 /// What a filter wants changed. Absent parts stay as they are; the host writes all of it or nothing.
 struct Result {
-    std::optional<Positions> positions;           ///< #V by 3
-    std::optional<std::vector<double>> quality;   ///< #V, becomes the vertex quality
-    std::vector<Attribute> attributes;            ///< new values of attributes given in the layer
-    std::optional<DerivedMesh> layer;             ///< becomes a new layer of the document
+    std::optional<Positions> positions;          ///< #V by 3
+    std::optional<std::vector<double>> quality;  ///< #V, becomes the vertex quality
+    std::vector<Attribute> attributes;           ///< new values of attributes given in the layer
+    std::optional<DerivedMesh> layer;            ///< becomes a new layer of the document
     Report report;
 };
 
@@ -90,4 +90,4 @@ struct Session {
     std::shared_ptr<const KeptPyramid> pyramid;
 };
 
-} // namespace multires
+}  // namespace multires

@@ -26,6 +26,7 @@ struct Layer {
     std::vector<std::uint8_t> selected_vertex;  ///< #V, 0 or 1; empty if nothing is selected
     std::vector<std::uint8_t> selected_face;    ///< #F, 0 or 1; empty if nothing is selected
     std::vector<std::uint8_t> faux_edges;       ///< #F, bit k = edge (k, k+1) is faux; empty if none is
+    std::vector<std::uint8_t> selected_edges;   ///< #F, bit k = edge (k, k+1) is selected; empty if none is
 };
 
 /// A mesh made of vertices of another one; the host carries all attributes over by these indices.

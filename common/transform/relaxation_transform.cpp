@@ -104,10 +104,11 @@ public:
         return out;
     }
 
-    Field synthesise(const Coefficients& coefficients, const std::vector<double>& gain) const override {
+    Field synthesise(const Coefficients& coefficients, const std::vector<double>& gain,
+                     std::size_t to_level) const override {
         Field f = coefficients.base;
-        f.values.reserve(static_cast<std::size_t>(h_.vertices()) * f.width);
-        for (std::size_t k = h_.levels.size(); k-- > 0;)
+        f.values.reserve(static_cast<std::size_t>(h_.size[to_level]) * f.width);
+        for (std::size_t k = h_.levels.size(); k-- > to_level;)
             synthesise_level(k, coefficients.detail[k], gain.empty() ? 1 : gain[k], f);
         return f;
     }

@@ -41,8 +41,10 @@ public:
     virtual Coefficients analyse(const Field& f) const = 0;
 
     /// @param gain  one factor per level for its details, finest first; empty: all 1
-    /// @returns     #V rows in order of places
-    virtual Field synthesise(const Coefficients& coefficients, const std::vector<double>& gain = {}) const = 0;
+    /// @param level  where to stop: 0 is the input's level, the number of levels gives the base back
+    /// @returns     size[level] rows in order of places
+    virtual Field synthesise(const Coefficients& coefficients, const std::vector<double>& gain = {},
+                             std::size_t level = 0) const = 0;
 };
 
 /// Copies values from order of input to order of places, and back.

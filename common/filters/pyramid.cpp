@@ -1,0 +1,279 @@
+#include "filters/pyramid.h"
+
+#include "measure/measure.h"
+#include "mesh/adjacency.h"
+#include "mesh/validation.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+void require(bool ok, const std::string& message) {
+    if (!ok) throw InputError(message);
+}
+
+void check(const PyramidOptions& o) {
+    require(o.presmooth >= 0 && o.presmooth <= 1, "presmooth must be between 0 and 1");
+    require(o.sets_per_level >= 1, "sets_per_level must be at least 1");
+    require(o.level_ratio >= 0 && o.level_ratio < 1, "level_ratio must be at least 0 and less than 1");
+    require(o.base_vertices >= 4, "base_vertices must be at least 4");
+    require(o.length_weight >= 0 && std::isfinite(o.length_weight), "length_weight must be a number, 0 or more");
+    require(o.normal_limit > 0 && o.normal_limit <= 180, "normal_limit must be more than 0 and at most 180 degrees");
+}
+
+HierarchyOptions hierarchy_options(const PyramidOptions& o) {
+    HierarchyOptions h;
+    h.grouping = o.grouping;
+    h.sets_per_level = o.sets_per_level;
+    h.level_ratio = o.level_ratio;
+    h.base_vertices = o.base_vertices;
+    h.length_weight = o.length_weight;
+    h.normal_limit_degrees = o.normal_limit;
+    h.flaps = uses_flaps(o.op);
+    return h;
+}
+
+RelaxationTransformOptions transform_options(const PyramidOptions& o) {
+    RelaxationTransformOptions t;
+    t.scheme = o.scheme;
+    t.relaxation.op = o.op;
+    t.presmooth = o.presmooth;
+    return t;
+}
+
+/// Sum and number of the edge lengths of some rows; summed in fixed chunks so that threads do not change it.
+struct LengthSum {
+    double sum = 0;
+    std::size_t count = 0;
+
+    void add(const Rings& rings, const Positions& p) {
+        constexpr Index chunk = 4096;
+        const Index chunks = (rings.rows() + chunk - 1) / chunk;
+        std::vector<double> part(chunks, 0);
+#pragma omp parallel for schedule(static)
+        for (Index c = 0; c < chunks; ++c)
+            for (Index r = c * chunk; r < std::min(rings.rows(), (c + 1) * chunk); ++r) {
+                const Vec3& at = p[rings.vertex(r)];
+                for (Index j = 0; j < rings.size(r); ++j) part[c] += (p[rings.begin(r)[j]] - at).norm();
+            }
+        for (const double s : part) sum += s;
+        count += rings.neighbor.size();
+    }
+    double mean() const { return count ? sum / static_cast<double>(count) : 0; }
+};
+
+/// Twice the mean edge length of every level.
+std::vector<double> wavelengths(const Hierarchy& h, const Faces& faces) {
+    const std::size_t levels = h.levels.size() + 1;
+    std::vector<double> out(levels, 0);
+    const auto exact = [&](std::size_t k) {
+        LengthSum s;
+        if (k + 1 == levels) {
+            s.add(h.base, h.positions);
+        } else if (h.levels[k].even.vertices.empty() && h.levels[k].independent) {
+            s.add(h.levels[k].even, h.positions);
+            s.add(h.levels[k].odd, h.positions);
+        } else {
+            return 2 * mean_edge_length(level_mesh(h, faces, k).faces, h.positions);
+        }
+        return 2 * s.mean();
+    };
+    // With thousands of levels, a few are measured and those between follow, in the logarithm.
+    constexpr std::size_t most = 64;
+    std::size_t last = 0;
+    out[0] = exact(0);
+    for (std::size_t k = 1; k < levels; ++k) {
+        const double shrunk = std::log(static_cast<double>(h.size[last]) / h.size[k]);
+        if (levels > most && k + 1 < levels && shrunk < 0.2) continue;
+        out[k] = exact(k);
+        for (std::size_t m = last + 1; m < k; ++m) {
+            const double t = shrunk > 0 ? std::log(static_cast<double>(h.size[last]) / h.size[m]) / shrunk : 0;
+            out[m] = out[last] > 0 ? out[last] * std::pow(out[k] / out[last], t) : 0;
+        }
+        last = k;
+    }
+    return out;
+}
+
+double rms_length(const Coefficients::Detail& d) {
+    double sum = 0;
+    for (const Field* f : {&d.odd, &d.even})
+        for (Index r = 0; r < f->rows(); ++r) {
+            const double* v = f->row(r);
+            sum += v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+        }
+    const Index rows = d.odd.rows() + d.even.rows();
+    return rows ? std::sqrt(sum / rows) : 0;
+}
+
+std::vector<LevelInfo> describe(const Hierarchy& h, const Coefficients& c, const Faces& faces) {
+    const std::vector<double> wavelength = wavelengths(h, faces);
+    std::vector<LevelInfo> info(wavelength.size());
+    for (std::size_t k = 0; k < info.size(); ++k) {
+        info[k].vertices = h.size[k] - h.isolated;
+        info[k].wavelength = wavelength[k];
+        if (k < c.detail.size()) info[k].rms_detail = rms_length(c.detail[k]);
+    }
+    return info;
+}
+
+/// Levels the report has room for: all, or a selection when there is one per vertex.
+std::vector<std::size_t> levels_to_show(std::size_t count) {
+    std::vector<std::size_t> shown;
+    const std::size_t stride = std::max<std::size_t>(1, count / 64);
+    for (std::size_t k = 0; k < count; k += stride) shown.push_back(k);
+    if (shown.back() != count - 1) shown.push_back(count - 1);
+    return shown;
+}
+
+void report_counts(const InputCounts& c, Report& report) {
+    report.add("duplicate_vertices", static_cast<int>(c.duplicate_vertices));
+    report.add("degenerate_faces", static_cast<int>(c.degenerate_faces + c.zero_area_faces));
+    report.add("duplicate_faces", static_cast<int>(c.duplicate_faces));
+    report.add("non_manifold_edges", static_cast<int>(c.non_manifold_edges));
+    report.add("non_manifold_vertices", static_cast<int>(c.non_manifold_vertices));
+    report.add("boundary_edges", static_cast<int>(c.boundary_edges));
+    report.add("boundary_loops", static_cast<int>(c.boundary_loops));
+    report.add("inconsistent_edges", static_cast<int>(c.inconsistent_edges));
+    report.add("components", static_cast<int>(c.components));
+}
+
+}  // namespace
+
+void mark_features(Rings& rings, const Layer& layer, Features features, double angle) {
+    const auto edges = [&](const std::vector<std::uint8_t>& bits, std::uint8_t flip, const char* what) {
+        require(!bits.empty(), std::string("features: the mesh has no ") + what + " edges");
+        std::vector<std::uint8_t> marked = bits;
+        for (std::uint8_t& b : marked) b ^= flip;
+        mark_features(rings, layer.mesh.faces, marked);
+    };
+    switch (features) {
+    case Features::none:
+        return;
+    case Features::angle:
+        require(angle > 0 && angle < 180, "feature_angle must be between 0 and 180 degrees");
+        return mark_features_by_angle(rings, layer.mesh.positions, angle);
+    case Features::non_faux_edges:
+        return edges(layer.faux_edges, 7, "faux");
+    case Features::selected_edges:
+        return edges(layer.selected_edges, 0, "selected");
+    }
+}
+
+KeptPyramid::Hash content_hash(const Layer& layer, const PyramidOptions& o) {
+    const double options[] = {static_cast<double>(o.scheme),
+                              static_cast<double>(o.op),
+                              o.presmooth,
+                              static_cast<double>(o.grouping),
+                              static_cast<double>(o.sets_per_level),
+                              o.level_ratio,
+                              static_cast<double>(o.base_vertices),
+                              o.length_weight,
+                              o.normal_limit,
+                              static_cast<double>(o.features),
+                              o.features == Features::angle ? o.feature_angle : 0,
+                              static_cast<double>(layer.mesh.positions.size())};
+    XXH3_state_t state;
+    XXH3_128bits_reset(&state);
+    const auto add = [&](const void* data, std::size_t bytes) {
+        if (bytes) XXH3_128bits_update(&state, data, bytes);
+    };
+    add(options, sizeof options);
+    add(layer.mesh.positions.data(), layer.mesh.positions.size() * sizeof(Vec3));
+    add(layer.mesh.faces.data(), layer.mesh.faces.size() * sizeof(Face));
+    if (o.features == Features::non_faux_edges) add(layer.faux_edges.data(), layer.faux_edges.size());
+    if (o.features == Features::selected_edges) add(layer.selected_edges.data(), layer.selected_edges.size());
+    const XXH128_hash_t hash = XXH3_128bits_digest(&state);
+    return {hash.low64, hash.high64};
+}
+
+KeptPyramid::KeptPyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress)
+    : hash_(content_hash(layer, options)) {
+    const Progress building = progress.part(0.05, 0.6);
+    progress.report(0, "Finding the neighbours");
+    Rings rings = vertex_rings(layer.mesh);
+    mark_features(rings, layer, options.features, options.feature_angle);
+    hierarchy_ = build_hierarchy(std::move(rings), layer.mesh.positions, hierarchy_options(options),
+                                 [&](double f) { building.report(f, "Building the pyramid"); });
+    progress.report(0.6, "Computing weights");
+    transform_ = relaxation_transform(hierarchy_, transform_options(options));
+    progress.report(0.8, "Computing details");
+    coefficients_ = transform_->analyse(to_places(hierarchy_, field_of(layer.mesh.positions)));
+    levels_ = describe(hierarchy_, coefficients_, layer.mesh.faces);
+    progress.report(1, "Pyramid built");
+}
+
+Positions KeptPyramid::synthesise(const std::vector<double>& gain) const {
+    return positions_of(to_input(hierarchy_, transform_->synthesise(coefficients_, gain)));
+}
+
+std::shared_ptr<const KeptPyramid> pyramid_of(const Layer& layer, const PyramidOptions& options, Session& session,
+                                              Report& report) {
+    require_usable(layer.mesh);
+    check(options);
+    const bool reused = session.pyramid && session.pyramid->hash() == content_hash(layer, options);
+    if (!reused) session.pyramid = std::make_shared<const KeptPyramid>(layer, options, session.progress.part(0, 0.9));
+    report.add("pyramid_reused", reused);
+    report.add("locked_vertices", static_cast<int>(session.pyramid->hierarchy().irregular));
+    report.add("unreferenced_vertices", static_cast<int>(session.pyramid->hierarchy().isolated));
+    return session.pyramid;
+}
+
+Result compute_pyramid(const Layer& layer, const ComputePyramidOptions& options, Session& session) {
+    Result result;
+    const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
+    const std::vector<LevelInfo>& levels = pyramid->levels();
+    std::vector<double> level, vertices, wavelength, rms_detail;
+    result.report.say("level     vertices  wavelength    RMS detail");
+    for (const std::size_t k : levels_to_show(levels.size())) {
+        level.push_back(static_cast<double>(k));
+        vertices.push_back(levels[k].vertices);
+        wavelength.push_back(levels[k].wavelength);
+        rms_detail.push_back(levels[k].rms_detail);
+        char line[96];
+        std::snprintf(line, sizeof line, "%5zu %12d  %-12.6g  %-12.6g", k, levels[k].vertices, levels[k].wavelength,
+                      levels[k].rms_detail);
+        result.report.say(line);
+    }
+    session.progress.report(0.95, "Checking the reconstruction");
+    result.report.add("levels", static_cast<int>(levels.size() - 1));
+    result.report.add("level", level);
+    result.report.add("vertices", vertices);
+    result.report.add("wavelength", wavelength, "mesh units");
+    result.report.add("rms_detail", rms_detail, "mesh units");
+    const Positions back = pyramid->synthesise({});
+    result.report.add("reconstruction_error", displacement(layer.mesh.positions, back).largest, "mesh units");
+    report_counts(count_input(layer.mesh), result.report);
+    return result;
+}
+
+Result generate_level(const Layer& layer, const GenerateLevelOptions& options, Session& session) {
+    Result result;
+    const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
+    const Hierarchy& h = pyramid->hierarchy();
+    const int last = static_cast<int>(h.levels.size());
+    require(options.level >= 0 && options.level <= last,
+            "level must be between 0 and " + std::to_string(last) + ", the number of levels of this mesh");
+    const Index count = h.size[options.level];
+    LevelMesh mesh = level_mesh(h, layer.mesh.faces, options.level);
+    DerivedMesh derived;
+    derived.name = "level " + std::to_string(options.level);
+    derived.source_vertex.assign(h.order.begin(), h.order.begin() + count);
+    derived.faces = std::move(mesh.faces);
+    derived.source_face = std::move(mesh.source_face);
+    if (options.smoothed)
+        derived.positions = positions_of(pyramid->transform().synthesise(pyramid->coefficients(), {}, options.level));
+    result.report.add("level", options.level);
+    result.report.add("vertices", static_cast<int>(count));
+    result.report.add("faces", static_cast<int>(derived.faces.size()));
+    result.report.add("wavelength", pyramid->levels()[options.level].wavelength, "mesh units");
+    result.layer = std::move(derived);
+    return result;
+}
+
+}  // namespace multires

@@ -1,0 +1,94 @@
+#pragma once
+
+#include "filters/filter.h"
+#include "hierarchy/hierarchy.h"
+#include "transform/relaxation_transform.h"
+
+#include <array>
+
+namespace multires {
+
+/// Where feature edges come from; they are not smoothed across.
+enum class Features {
+    none,
+    angle,           ///< edges where the faces' normals differ by more than an angle
+    non_faux_edges,  ///< edges that are not faux, as MeshLab's crease filter leaves them
+    selected_edges,  ///< edges selected on their faces
+};
+
+/// How a pyramid is built. The defaults give the sharpest bands (see docs); papers() gives those of the papers.
+struct PyramidOptions {
+    Scheme scheme = Scheme::guskov;
+    Operator op = Operator::second_difference_flaps;
+    double presmooth = 0.5;  ///< share of the relaxation applied before subsampling, in [0, 1]
+    Grouping grouping = Grouping::independent_sets;
+    int sets_per_level = 1;      ///< >= 1, for independent sets
+    double level_ratio = 0;      ///< in [0, 1), for sequential; 0: one vertex per level
+    int base_vertices = 100;     ///< >= 4
+    double length_weight = 0.1;  ///< >= 0, see HierarchyOptions
+    double normal_limit = 60;    ///< degrees, in (0, 180]
+    Features features = Features::none;
+    double feature_angle = 40;  ///< degrees, in (0, 180), for Features::angle
+};
+
+/// Numbers of one level. Level 0 is the input.
+struct LevelInfo {
+    Index vertices = 0;     ///< isolated ones not counted
+    double wavelength = 0;  ///< 2 x mean edge length of the level's mesh, mesh units: the finest wave it can carry
+    double rms_detail = 0;  ///< root mean square length of the details between it and the next, mesh units
+};
+
+/// A pyramid and the mesh it belongs to. Immutable, so that filters and layers can share it.
+class KeptPyramid {
+public:
+    using Hash = std::array<std::uint64_t, 2>;
+
+    KeptPyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress);
+
+    const Hierarchy& hierarchy() const { return hierarchy_; }
+    const Transform& transform() const { return *transform_; }
+    const Coefficients& coefficients() const { return coefficients_; }
+    /// Levels 0..L: one more than there are sets of details; the last is the base.
+    const std::vector<LevelInfo>& levels() const { return levels_; }
+    const Hash& hash() const { return hash_; }
+
+    /// Positions with the details of each level multiplied by a gain, in order of the input.
+    Positions synthesise(const std::vector<double>& gain) const;
+
+private:
+    Hash hash_;
+    Hierarchy hierarchy_;
+    std::unique_ptr<Transform> transform_;
+    Coefficients coefficients_;
+    std::vector<LevelInfo> levels_;
+};
+
+/// Hash of all a pyramid depends on: positions, faces, options, and the edges that are features.
+KeptPyramid::Hash content_hash(const Layer& layer, const PyramidOptions& options);
+
+/// Marks the feature edges of a layer in its rings.
+/// @throws InputError if the layer has none of the marks asked for, or the angle is out of range
+void mark_features(Rings& rings, const Layer& layer, Features features, double angle);
+
+/// The session's pyramid if it was built from this very layer with these options, a new one otherwise (put into the
+/// session). Tells `report` which: pyramid_reused.
+/// @throws InputError for a mesh without faces, with NaN, ... (see require_usable) or options out of range
+std::shared_ptr<const KeptPyramid> pyramid_of(const Layer& layer, const PyramidOptions& options, Session& session,
+                                              Report& report);
+
+/// "Compute pyramid": builds it and reports its levels.
+struct ComputePyramidOptions {
+    PyramidOptions pyramid;
+};
+Result compute_pyramid(const Layer& layer, const ComputePyramidOptions& options, Session& session);
+
+/// "Generate level": the mesh of a level as a new layer.
+struct GenerateLevelOptions {
+    PyramidOptions pyramid;
+    int level = 8;  ///< 0 = the input .. number of levels = the base; larger ones are an error
+    /// Positions of the coarse level of the pyramid (presmoothed) instead of the input's.
+    bool smoothed = false;
+};
+Result generate_level(const Layer& layer, const GenerateLevelOptions& options, Session& session);
+
+}  // namespace multires

@@ -1,0 +1,203 @@
+#include "bindings.h"
+
+#include "filters/band_filters.h"
+
+#include <cstdio>
+
+// Filters that remove, weaken or strengthen bands of scales.
+
+namespace multires::plugin {
+namespace {
+
+LowPassOptions low_pass_defaults(const Layer* layer) {
+    LowPassOptions o;
+    o.cutoff = layer ? default_cutoff(*layer, o.unit) : 1;
+    o.region.selected = has_selection(layer);
+    return o;
+}
+
+void bind_low_pass(Parameters& p, LowPassOptions& o) {
+    bind_unit(p, o.unit);
+    p.real("cutoff", o.cutoff,
+           {"Cutoff", "Everything finer than this is removed: shorter waves, lower levels, levels with more vertices.",
+            0, 1e30, false, "Band"});
+    bind_softness(p, o.softness);
+    bind_region(p, o.region);
+    bind_pyramid(p, o.pyramid);
+}
+
+Result run_low_pass(const Layer& layer, const LowPassOptions& options, Session& session) {
+    LowPassOptions o = options;
+    if (is_still(o.cutoff, default_cutoff(layer, Unit::wavelength))) o.cutoff = default_cutoff(layer, o.unit);
+    return low_pass(layer, o, session);
+}
+
+BandOptions band_defaults(const Layer* layer) {
+    BandOptions o;
+    o.band.coarsest = 1;
+    if (layer) o.band = default_band(*layer, Unit::wavelength);
+    o.region.selected = has_selection(layer);
+    return o;
+}
+
+void bind_stop_band(Parameters& p, BandOptions& o) {
+    bind_band(p, o.band);
+    bind_region(p, o.region);
+    bind_pyramid(p, o.pyramid);
+}
+
+BandOptions enhance_defaults(const Layer* layer) {
+    BandOptions o = band_defaults(layer);
+    o.gain = 2;
+    return o;
+}
+
+void bind_enhance(Parameters& p, BandOptions& o) {
+    p.slider("gain", o.gain,
+             {"Gain", "Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them.", 0, 8,
+              false, "Band"});
+    bind_stop_band(p, o);
+}
+
+Result run_band(const Layer& layer, const BandOptions& options, Session& session) {
+    BandOptions o = options;
+    o.band = in_own_unit(layer, o.band);
+    return scale_band(layer, o, session);
+}
+
+/// The limits are there for the labels only.
+struct EqualizerRow : EqualizerOptions {
+    std::array<double, equalizer_bands + 1> limit{};
+};
+
+EqualizerRow equalizer_defaults(const Layer* layer) {
+    EqualizerRow o;
+    o.region.selected = has_selection(layer);
+    if (layer) o.limit = equalizer_limits(*layer, o.pyramid);
+    return o;
+}
+
+std::string band_label(const EqualizerRow& o, int i) {
+    char text[96];
+    if (o.limit[0] <= 0)
+        std::snprintf(text, sizeof text, "Gain %d", i + 1);
+    else if (i == 0)
+        std::snprintf(text, sizeof text, "Gain 1: finer than %.3g", o.limit[1]);
+    else if (i == equalizer_bands - 1)
+        std::snprintf(text, sizeof text, "Gain %d: coarser than %.3g", i + 1, o.limit[i]);
+    else
+        std::snprintf(text, sizeof text, "Gain %d: %.3g to %.3g", i + 1, o.limit[i], o.limit[i + 1]);
+    return text;
+}
+
+void bind_equalizer(Parameters& p, EqualizerRow& o) {
+    for (int i = 0; i < equalizer_bands; ++i)
+        p.slider(("gain_" + std::to_string(i + 1)).c_str(), o.gain[i],
+                 {band_label(o, i),
+                  "Factor for waves of these lengths (mesh units): 1 leaves them, 0 removes them, 2 doubles them.", 0,
+                  4, false, "Bands, fine to coarse"});
+    bind_softness(p, o.softness);
+    bind_region(p, o.region);
+    bind_pyramid(p, o.pyramid);
+}
+
+Result run_equalizer(const Layer& layer, const EqualizerRow& options, Session& session) {
+    return equalizer(layer, options, session);
+}
+
+UnsharpOptions unsharp_defaults(const Layer* layer) {
+    UnsharpOptions o;
+    o.region.selected = has_selection(layer);
+    return o;
+}
+
+void bind_unsharp(Parameters& p, UnsharpOptions& o) {
+    p.slider("xi", o.xi,
+             {"Strength",
+              "1 changes nothing; 2 doubles what the relaxation takes away; between 0 and 1 smooths, 0 fully.", 0, 8});
+    p.integer("iterations", o.iterations,
+              {"Relaxation steps", "More steps reach coarser structure; each costs the same.", 1, 10000});
+    bind_operator(p, o.op, "Relaxation");
+    bind_region(p, o.region);
+    bind_features(p, o.features, o.feature_angle);
+}
+
+constexpr std::uint32_t reads = vertex_quality;
+
+}  // namespace
+
+const Plugin& table() {
+    static const Plugin plugin{
+        "FilterMultiresBand",
+        {
+            filter<LowPassOptions>(
+                {"Multiresolution: Low Pass",
+                 "apply_coord_multires_low_pass",
+                 std::string("Removes everything finer than a wavelength and keeps everything coarser, in one pass, "
+                             "without shrinking the shape.<br>") +
+                     cite_guskov,
+                 MenuClass::smoothing,
+                 faces,
+                 reads,
+                 vertex_positions,
+                 {},
+                 {}},
+                low_pass_defaults, bind_low_pass, run_low_pass),
+            filter<BandOptions>(
+                {"Multiresolution: Stop Band",
+                 "apply_coord_multires_stop_band",
+                 std::string("Removes the structure between two wavelengths; finer engraving and the coarse shape stay."
+                             "<br>") +
+                     cite_guskov + cite_roy,
+                 MenuClass::smoothing,
+                 faces,
+                 reads,
+                 vertex_positions,
+                 {},
+                 {}},
+                band_defaults, bind_stop_band, run_band),
+            filter<BandOptions>(
+                {"Multiresolution: Enhance Band",
+                 "apply_coord_multires_enhance",
+                 std::string("Multiplies the structure between two wavelengths by a gain: brings out what is worn, or "
+                             "weakens what disturbs.<br>") +
+                     cite_guskov + cite_roy,
+                 MenuClass::smoothing,
+                 faces,
+                 reads,
+                 vertex_positions,
+                 {},
+                 {}},
+                enhance_defaults, bind_enhance, run_band),
+            filter<EqualizerRow>(
+                {"Multiresolution: Equalizer",
+                 "apply_coord_multires_equalizer",
+                 std::string("Eight gains for eight bands from fine to coarse. With all gains at 1 the mesh comes back "
+                             "unchanged.<br>") +
+                     cite_guskov,
+                 MenuClass::smoothing,
+                 faces,
+                 reads,
+                 vertex_positions,
+                 {},
+                 {}},
+                equalizer_defaults, bind_equalizer, run_equalizer),
+            filter<UnsharpOptions>(
+                {"Multiresolution: Unsharp (Single Level)",
+                 "apply_coord_multires_unsharp",
+                 std::string(
+                     "Strengthens (or weakens) what some steps of relaxation would take away, without a pyramid. "
+                     "Best for small meshes; scans with noise are better served by the bands.<br>") +
+                     cite_guskov,
+                 MenuClass::smoothing,
+                 faces,
+                 reads,
+                 vertex_positions,
+                 {},
+                 {}},
+                unsharp_defaults, bind_unsharp, unsharp),
+        }};
+    return plugin;
+}
+
+}  // namespace multires::plugin

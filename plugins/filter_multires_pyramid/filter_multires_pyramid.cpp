@@ -1,0 +1,115 @@
+#include "bindings.h"
+
+#include "filters/band_filters.h"
+
+#include <cmath>
+
+// Filters that build a pyramid and show what is in it.
+
+namespace multires::plugin {
+namespace {
+
+ComputePyramidOptions compute_defaults(const Layer* /*layer*/) { return {}; }
+
+void bind_compute(Parameters& p, ComputePyramidOptions& o) { bind_pyramid(p, o.pyramid); }
+
+/// About half way down the pyramid: a level keeps three quarters of its vertices.
+GenerateLevelOptions level_defaults(const Layer* layer) {
+    GenerateLevelOptions o;
+    o.level = 0;
+    if (!layer) return o;
+    const double vertices = static_cast<double>(layer->mesh.positions.size());
+    if (vertices > o.pyramid.base_vertices)
+        o.level = static_cast<int>(std::log(vertices / o.pyramid.base_vertices) / std::log(4 / 3.0) / 2);
+    return o;
+}
+
+void bind_level(Parameters& p, GenerateLevelOptions& o) {
+    p.integer("level", o.level,
+              {"Level",
+               "0 is the mesh itself; each level has about three quarters of the vertices of the one before. A "
+               "number beyond the last level is an error that names the last.",
+               0, 1000000000});
+    p.boolean("smoothed", o.smoothed,
+              {"Smoothed positions",
+               "Place the vertices where the coarse level of the pyramid has them (presmoothed) instead of where they "
+               "are in the mesh."});
+    bind_pyramid(p, o.pyramid);
+}
+
+DetailOptions detail_defaults(const Layer* layer) {
+    DetailOptions o;
+    if (layer) o.band = default_band(*layer, Unit::wavelength);
+    return o;
+}
+
+void bind_detail(Parameters& p, DetailOptions& o) {
+    bind_band(p, o.band);
+    p.boolean("signed_normal", o.signed_normal,
+              {"Signed, along the normal",
+               "Store the part of the detail along the vertex normal, positive outwards, instead of its length."});
+    bind_pyramid(p, o.pyramid);
+}
+
+Result run_detail(const Layer& layer, const DetailOptions& options, Session& session) {
+    DetailOptions o = options;
+    o.band = in_own_unit(layer, o.band);
+    return detail_quality(layer, o, session);
+}
+
+}  // namespace
+
+const Plugin& table() {
+    static const Plugin plugin{
+        "FilterMultiresPyramid",
+        {
+            filter<ComputePyramidOptions>(
+                {"Multiresolution: Build Pyramid",
+                 "compute_multires_pyramid",
+                 std::string("Builds a pyramid of levels of resolution and keeps it with the mesh, so that the other "
+                             "multiresolution filters answer at once while the mesh stays the same. The mesh is not "
+                             "changed. Returned for each level: number of vertices, wavelength (twice the mean edge "
+                             "length) and root mean square of the details; the largest error of the reconstruction; "
+                             "and what is unusual in the mesh.<br>") +
+                     cite_guskov + cite_roy,
+                 MenuClass::measure,
+                 faces,
+                 none,
+                 none,
+                 {},
+                 {}},
+                compute_defaults, bind_compute, compute_pyramid),
+            filter<GenerateLevelOptions>(
+                {"Multiresolution: Level as New Layer",
+                 "generate_multires_level",
+                 std::string(
+                     "Makes a new layer with the mesh of one level of the pyramid: a subset of the vertices with "
+                     "all their attributes. The custom vertex attribute <i>source_vertex</i> holds the index of "
+                     "each in the input.<br>") +
+                     cite_roy,
+                 MenuClass::layer,
+                 faces,
+                 none,
+                 new_layer,
+                 {},
+                 {}},
+                level_defaults, bind_level, generate_level),
+            filter<DetailOptions>(
+                {"Multiresolution: Detail to Vertex Quality",
+                 "compute_scalar_multires_detail_per_vertex",
+                 std::string("Stores in the vertex quality how much a band of scales adds to the shape at each vertex: "
+                             "the distance to where the vertex would be without the band, or its signed part along the "
+                             "normal, in mesh units.<br>") +
+                     cite_guskov,
+                 MenuClass::quality,
+                 faces,
+                 none,
+                 vertex_quality,
+                 {},
+                 {}},
+                detail_defaults, bind_detail, run_detail),
+        }};
+    return plugin;
+}
+
+}  // namespace multires::plugin
