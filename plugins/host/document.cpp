@@ -14,16 +14,17 @@ constexpr int data_elements = MeshModel::MM_VERTCOLOR | MeshModel::MM_VERTQUALIT
 class NewLayer {
 public:
     NewLayer(MeshDocument& document, const MeshModel& source, const VcgLayer& flat, const DerivedMesh& derived)
-        : document_(document), model_(document.addNewMesh("", QString::fromStdString(derived.name), false)) {
+        : document_(document), current_(source.id()),
+          model_(document.addNewMesh("", QString::fromStdString(derived.name), false)) {
         try {
             fill(source, flat, derived);
         } catch (...) {
-            delete_layer(document_, *model_);
+            take_back();
             throw;
         }
     }
     ~NewLayer() {
-        if (model_) delete_layer(document_, *model_);
+        if (model_) take_back();
     }
     NewLayer(const NewLayer&) = delete;
     NewLayer& operator=(const NewLayer&) = delete;
@@ -35,6 +36,11 @@ public:
     const std::vector<std::string>& left_out() const { return left_out_; }
 
 private:
+    void take_back() {
+        delete_layer(document_, *model_);
+        document_.setCurrentMesh(current_);  // hosts move on to another layer when one is deleted
+    }
+
     void fill(const MeshModel& source, const VcgLayer& flat, const DerivedMesh& derived) {
         left_out_ = build_derived(model_->cm, source.cm, flat, derived);
         model_->updateDataMask(source.dataMask() & data_elements);
@@ -45,6 +51,7 @@ private:
     }
 
     MeshDocument& document_;
+    int current_;  // the source's: filters work on the current layer
     MeshModel* model_;
     std::vector<std::string> left_out_;
 };

@@ -9,11 +9,11 @@ namespace multires::host {
 using PyramidPointer = std::shared_ptr<const KeptPyramid>;
 
 /// The place where a mesh keeps its pyramid between calls: a named per-mesh attribute of vcg, which goes when the mesh
-/// goes and is in no file format but VMI. It is found by name, so it is common to all our plugins in a process,
+/// goes and is not copied with it. It is found by name, so it is common to all our plugins in a process,
 /// although each has its own copy of this code; the name says which layout of KeptPyramid it points to.
 ///
-/// A file of VMI format holds the bytes of the attribute. They come back as an attribute of that name but of another
-/// type, and are never read: kept_pyramid() gives null, pyramid_slot() puts a new one in their place.
+/// Hosts save it in no file. A VMI file from elsewhere may hold bytes under that name, as an attribute of another type:
+/// they are never read, kept_pyramid() gives null and pyramid_slot() puts a new slot in their place.
 ///
 /// The pyramid's code belongs to the plugin that built it, and hosts unload plugins before they delete meshes; our
 /// plugins are therefore linked to stay loaded (-z nodelete).

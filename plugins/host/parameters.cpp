@@ -14,11 +14,10 @@ public:
     void boolean(const char* name, bool& value, const Hint& hint) override { add<RichBool>(name, hint, value); }
     void integer(const char* name, int& value, const Hint& hint) override { add<RichInt>(name, hint, value); }
     void real(const char* name, double& value, const Hint& hint) override {
-        add<RichFloat>(name, hint, static_cast<Scalarm>(value));
+        add<RichFloat>(name, hint, finite(value));
     }
     void slider(const char* name, double& value, const Hint& hint) override {
-        add<RichDynamicFloat>(name, hint, static_cast<Scalarm>(value), static_cast<Scalarm>(hint.least),
-                              static_cast<Scalarm>(hint.most));
+        add<RichDynamicFloat>(name, hint, finite(value), finite(hint.least), finite(hint.most));
     }
     void choice(const char* name, int& value, const std::vector<std::string>& names, const Hint& hint) override {
         QStringList list;
@@ -29,6 +28,11 @@ public:
     RichParameterList list;
 
 private:
+    static Scalarm finite(double value) {
+        if (!std::isfinite(static_cast<Scalarm>(value))) throw InputError("no default for this mesh");
+        return static_cast<Scalarm>(value);
+    }
+
     template <class Rich, class... Value>
     void add(const char* name, const Hint& hint, const Value&... value) {
         list.addParam(make_parameter<Rich>(QString(name), hint, value...));

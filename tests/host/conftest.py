@@ -1,0 +1,24 @@
+"""What the host tests share: where things were built, the tables of all filters, and meshes of every class."""
+
+import json
+import os
+import pathlib
+import subprocess
+
+import pytest
+
+BUILD = pathlib.Path(os.environ["MULTIRES_BUILD_DIR"])
+PLUGINS = sorted((BUILD / "plugins").glob("*.so"))
+PROBES = BUILD / "probes"
+
+# Every filter of every plugin: dictionaries with name, python_name, changes and parameters.
+FILTERS = json.loads(subprocess.check_output([BUILD / "tests/tables/multires_list_filters"]))
+FILTER_IDS = [f["python_name"] for f in FILTERS]
+
+
+@pytest.fixture(scope="session")
+def meshes(tmp_path_factory):
+    """A folder of generated meshes, a PLY file for each class of mesh."""
+    folder = tmp_path_factory.mktemp("meshes")
+    subprocess.run([BUILD / "meshes/make_meshes", folder], check=True)
+    return folder
