@@ -9,7 +9,8 @@
 //     c_l1 = (2 / L_e)  (cot_j1 + cot_k1)        c_j = (2 / L_e) -(cot_k1 + cot_k2)
 //     c_l2 = (2 / L_e)  (cot_j2 + cot_k2)        c_k = (2 / L_e) -(cot_j1 + cot_j2)
 //
-// They sum to 0. The weights are w_ij = - sum_e c_e,i c_e,j / sum_e c_e,i^2, so the 2 cancels and L_e is needed squared
+// They sum to 0 (for the paper's form in signed areas to do so, l1 and l2 have to be swapped in its A[k,l1,l2] and
+// A[j,l2,l1]). The weights are w_ij = - sum_e c_e,i c_e,j / sum_e c_e,i^2, so the 2 cancels and L_e is needed squared
 // only: no root beyond the one of each triangle's area.
 
 namespace multires::kernels {

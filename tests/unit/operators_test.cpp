@@ -434,6 +434,48 @@ TEST(SecondDifference, MinimisesTheSumOfSquares) {
     }
 }
 
+TEST(SecondDifference, OneEdgeGivesTheCoefficientsOfThePaper) {
+    // With every edge but one left out, the weights are -c_e,j / c_e,i: Guskov's coefficients (eq. 1) of that edge.
+    // As printed, A[k,l1,l2] and A[j,l2,l1] have the wrong sign (the four would not sum to 0): l1 and l2 are swapped.
+    Mesh mesh = shapes::scan(100);
+    Rings rings = rings_of(mesh);
+    const Rings whole = rings;
+    rings.feature.assign(rings.neighbor.size(), 1);
+    rings.flap.assign(rings.neighbor.size(), -1);
+    const auto area = [](const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * (b - a).cross(c - a).z(); };
+    for (Index r = 0; r < rings.rows(); ++r) {
+        const Index n = rings.size(r), *ring = rings.begin(r), at = rings.offset[r];
+        for (const bool link : {false, true}) {
+            // Spoke {v, ring[1]} or link edge {ring[0], ring[1]}.
+            const Index j = link ? ring[0] : r, k = ring[1], l1 = link ? r : ring[0],
+                        l2 = link ? whole.flap[at] : ring[2];
+            if (link) {
+                rings.flap[at] = l2;
+            } else {
+                rings.feature[at + 1] = 0;
+            }
+            Vec3 p[4];
+            flatten({mesh.positions[j], mesh.positions[k], mesh.positions[l1], mesh.positions[l2]}, p);
+            const double length = (p[1] - p[0]).norm(), a1 = area(p[2], p[1], p[0]), a2 = area(p[3], p[0], p[1]);
+            std::map<Index, double> c;
+            c[l1] = length / a1;
+            c[l2] = length / a2;
+            c[j] = -length * area(p[1], p[3], p[2]) / (a1 * a2);
+            c[k] = -length * area(p[0], p[2], p[3]) / (a1 * a2);
+            EXPECT_NEAR(c[l1] + c[l2] + c[j] + c[k], 0, 1e-12 * length / std::abs(a1));
+
+            const Rows rows = relaxation(rings, mesh.positions, with(Operator::second_difference_flaps));
+            ASSERT_FALSE(is_kept(rows.kept, r));
+            for (Index e = rows.offset[r]; e < rows.offset[r + 1]; ++e) {
+                EXPECT_NEAR(rows.weight[e], -c[rows.column[e]] / c[r], 1e-11 * largest_weight(rows, r));
+            }
+            rings.flap[at] = -1;
+            rings.feature[at + 1] = 1;
+        }
+        ASSERT_GE(n, 4);
+    }
+}
+
 TEST(SecondDifference, ColumnsAreTheRingThenTheOtherFlapsOnce) {
     for (const Mesh& mesh : {shapes::scan(400), shapes::torus(5, 4), shapes::icosphere(1)}) {
         const Rings rings = rings_of(mesh);
