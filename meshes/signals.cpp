@@ -1,3 +1,4 @@
+#include "parallel/parallel.h"
 #include "random.h"
 #include "shapes.h"
 
@@ -107,8 +108,7 @@ Mesh scan(Index vertices, const Irregular& options) {
     const double edge = std::sqrt(8 * pi / (std::sqrt(3.0) * static_cast<double>(mesh.positions.size())));
     const std::vector<Wave> waves = octaves(2, 4 * edge, 0.06, random);
     const auto count = static_cast<Index>(mesh.positions.size());
-#pragma omp parallel for schedule(static)
-    for (Index v = 0; v < count; ++v) mesh.positions[v] *= 1 + height(waves, mesh.positions[v]);
+    parallel_for(count, [&](Index v) { mesh.positions[v] *= 1 + height(waves, mesh.positions[v]); });
     return mesh;
 }
 

@@ -3,6 +3,7 @@
 #include "measure/measure.h"
 #include "mesh/adjacency.h"
 #include "mesh/validation.h"
+#include "parallel/parallel.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -55,12 +56,12 @@ struct LengthSum {
         constexpr Index chunk = 4096;
         const Index chunks = (rings.rows() + chunk - 1) / chunk;
         std::vector<double> part(chunks, 0);
-#pragma omp parallel for schedule(static)
-        for (Index c = 0; c < chunks; ++c)
+        parallel_for(chunks, [&](Index c) {
             for (Index r = c * chunk; r < std::min(rings.rows(), (c + 1) * chunk); ++r) {
                 const Vec3& at = p[rings.vertex(r)];
                 for (Index j = 0; j < rings.size(r); ++j) part[c] += (p[rings.begin(r)[j]] - at).norm();
             }
+        });
         for (const double s : part) sum += s;
         count += rings.neighbor.size();
     }

@@ -1,6 +1,7 @@
 #include "filters/region.h"
 
 #include "measure/measure.h"
+#include "parallel/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,13 +44,12 @@ std::vector<double> region_weights(const Layer& layer, const Region& region) {
 
 void blend(const Positions& before, const std::vector<double>& weights, Positions& after) {
     if (weights.empty()) return;
-#pragma omp parallel for schedule(static)
-    for (Index i = 0; i < static_cast<Index>(before.size()); ++i) {
+    parallel_for(static_cast<Index>(before.size()), [&](Index i) {
         if (weights[i] <= 0)
             after[i] = before[i];
         else if (weights[i] < 1)
             after[i] = before[i] + weights[i] * (after[i] - before[i]);
-    }
+    });
 }
 
 void report_change(const Layer& layer, const Positions& after, Report& report) {

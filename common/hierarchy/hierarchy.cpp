@@ -4,6 +4,7 @@
 #include "hierarchy/renumber.h"
 #include "hierarchy/sequential.h"
 #include "mesh/adjacency.h"
+#include "parallel/parallel.h"
 
 #include <algorithm>
 
@@ -18,8 +19,7 @@ Positions normalised(const Positions& positions) {
     const Vec3 centre = lo + (hi - lo) / 2;
     const double diagonal = (hi - lo).norm(), scale = diagonal > 0 ? 1 / diagonal : 1;
     Positions out(positions.size());
-#pragma omp parallel for schedule(static)
-    for (Index i = 0; i < static_cast<Index>(positions.size()); ++i) out[i] = (positions[i] - centre) * scale;
+    parallel_for(static_cast<Index>(positions.size()), [&](Index i) { out[i] = (positions[i] - centre) * scale; });
     return out;
 }
 
@@ -100,8 +100,7 @@ Hierarchy build_hierarchy(Rings rings, const Positions& positions, const Hierarc
     h.irregular = irregular;
     h.isolated = isolated;
     h.positions.resize(positions.size());
-#pragma omp parallel for schedule(static)
-    for (Index place = 0; place < h.vertices(); ++place) h.positions[place] = positions[h.order[place]];
+    parallel_for(h.vertices(), [&](Index place) { h.positions[place] = positions[h.order[place]]; });
     return h;
 }
 

@@ -2,6 +2,7 @@
 
 #include "hierarchy/collapse.h"
 #include "hierarchy/radix_sort.h"
+#include "parallel/parallel.h"
 
 #include <algorithm>
 
@@ -54,8 +55,7 @@ constexpr std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
 
 std::vector<Quadric> vertex_quadrics(const Rings& rings, const Positions& positions) {
     std::vector<Quadric> q(rings.rows());
-#pragma omp parallel for schedule(static)
-    for (Index i = 0; i < rings.rows(); ++i) q[i] = collapse::vertex_quadric(i, ring_of(rings, i), positions);
+    parallel_for(rings.rows(), [&](Index i) { q[i] = collapse::vertex_quadric(i, ring_of(rings, i), positions); });
     return q;
 }
 
@@ -64,12 +64,11 @@ Candidates rank_vertices(const State& s, double length_weight) {
     Candidates c;
     c.key.resize(n);
     c.target.resize(n);
-#pragma omp parallel for schedule(static)
-    for (Index v = 0; v < n; ++v) {
+    parallel_for(n, [&](Index v) {
         c.key[v] = never;
         const Ring ring = ring_of(s.rings, v);
         const Directions directions(ring);
-        if (directions.none()) continue;
+        if (directions.none()) return;
         double least = std::numeric_limits<double>::infinity();
         for (Index j = 0; j < ring.size; ++j) {
             if (!directions.allows(j)) continue;
@@ -79,7 +78,7 @@ Candidates rank_vertices(const State& s, double length_weight) {
             if (cost < least) least = cost, c.target[v] = j;
         }
         if (least < std::numeric_limits<double>::infinity()) c.key[v] = radix_key(static_cast<float>(least));
-    }
+    });
     return c;
 }
 
@@ -171,9 +170,8 @@ State next_state(const State& s, const Step& step, const std::vector<Index>& deg
     t.rings.neighbor.resize(t.rings.offset[m]);
     if (!s.rings.feature.empty()) t.rings.feature.resize(t.rings.offset[m]);
     const auto ring = [&](Index i) { return ring_of(s.rings, i); };
-#pragma omp parallel for schedule(static)
-    for (Index i = 0; i < n; ++i) {
-        if (parent(i) >= 0) continue;
+    parallel_for(n, [&](Index i) {
+        if (parent(i) >= 0) return;
         const Index to = step.rank[i];
         t.rings.kind[to] = s.rings.kind[i];
         t.positions[to] = s.positions[i];
@@ -189,7 +187,7 @@ State next_state(const State& s, const Step& step, const std::vector<Index>& deg
             if (parent(x) == i) q.add_moved(s.quadric[x], s.positions[x] - s.positions[i]);
         }
         t.quadric[to] = q;
-    }
+    });
     return t;
 }
 

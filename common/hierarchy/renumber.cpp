@@ -1,5 +1,7 @@
 #include "hierarchy/renumber.h"
 
+#include "parallel/parallel.h"
+
 namespace multires {
 
 Rings renumbered(const Rings& rings, const std::vector<Index>& from, const std::vector<Index>& place, Index limit) {
@@ -11,8 +13,7 @@ Rings renumbered(const Rings& rings, const std::vector<Index>& from, const std::
     out.neighbor.resize(out.offset[rows]);
     if (!rings.flap.empty()) out.flap.resize(out.offset[rows]);
     if (!rings.feature.empty()) out.feature.resize(out.offset[rows]);
-#pragma omp parallel for schedule(static)
-    for (Index r = 0; r < rows; ++r) {
+    parallel_for(rows, [&](Index r) {
         out.kind[r] = rings.kind[from[r]];
         const Index source = rings.offset[from[r]], to = out.offset[r];
         for (Index j = 0; j < rings.size(from[r]); ++j) {
@@ -22,7 +23,7 @@ Rings renumbered(const Rings& rings, const std::vector<Index>& from, const std::
             const Index flap = rings.flap[source + j];
             out.flap[to + j] = flap >= 0 && place[flap] < limit ? place[flap] : -1;
         }
-    }
+    });
     return out;
 }
 

@@ -1,6 +1,7 @@
 #include "measure/measure.h"
 
 #include "measure/reduce.h"
+#include "parallel/parallel.h"
 
 #include <cmath>
 #include <limits>
@@ -171,11 +172,10 @@ Change compare(const Faces& faces, const Positions& before, const Positions& aft
 
 std::vector<Vec3> face_normals(const Faces& faces, const Positions& positions) {
     std::vector<Vec3> normals(faces.size());
-#pragma omp parallel for schedule(static)
-    for (std::size_t f = 0; f < faces.size(); ++f) {
+    parallel_for(static_cast<Index>(faces.size()), [&](Index f) {
         const Triangle t(faces[f], positions);
         normals[f] = t.is_degenerate() ? Vec3(Vec3::Zero()) : Vec3(t.cross / t.cross.norm());
-    }
+    });
     return normals;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "parallel/parallel.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -12,14 +14,11 @@ namespace multires {
 /// @param T     default-constructed it is the neutral element; T& += T joins
 template <class T, class Part>
 T chunked_reduce(std::size_t count, const Part& part) {
-    constexpr std::size_t chunk = 4096;
-    const auto chunks = static_cast<std::ptrdiff_t>((count + chunk - 1) / chunk);
-    std::vector<T> partial(chunks);
-#pragma omp parallel for schedule(static)
-    for (std::ptrdiff_t c = 0; c < chunks; ++c) {
-        const std::size_t begin = static_cast<std::size_t>(c) * chunk;
-        partial[c] = part(begin, std::min(begin + chunk, count));
-    }
+    constexpr Index chunk = 4096;
+    std::vector<T> partial((count + chunk - 1) / chunk);
+    parallel_chunks(static_cast<Index>(count), chunk, [&](Index begin, Index end) {
+        partial[begin / chunk] = part(static_cast<std::size_t>(begin), static_cast<std::size_t>(end));
+    });
     T total{};
     for (const T& p : partial) total += p;
     return total;

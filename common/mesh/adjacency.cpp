@@ -1,5 +1,7 @@
 #include "mesh/adjacency.h"
 
+#include "parallel/parallel.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -163,34 +165,30 @@ Rings vertex_rings(const Mesh& mesh) {
     Rings rings;
     rings.kind.resize(n);
     rings.offset.resize(n + 1);
-#pragma omp parallel
-    {
+    parallel_chunks(n, 1024, [&](Index begin, Index end) {
         Chainer chainer;
-#pragma omp for schedule(static)
-        for (Index i = 0; i < n; ++i)
+        for (Index i = begin; i < end; ++i)
             rings.kind[i] =
                 chainer.chain(wedges.wedge.data() + wedges.offset[i], wedges.offset[i + 1] - wedges.offset[i]);
-    }
+    });
     for (Index i = 0; i < n; ++i) {
         const Index faces = wedges.offset[i + 1] - wedges.offset[i];
         const bool has_ring = rings.kind[i] == RingKind::closed || rings.kind[i] == RingKind::open;
         rings.offset[i + 1] = rings.offset[i] + (has_ring ? faces + (rings.kind[i] == RingKind::open) : 0);
     }
     rings.neighbor.resize(rings.offset[n]);
-#pragma omp parallel for schedule(static)
-    for (Index i = 0; i < n; ++i) {
+    parallel_for(n, [&](Index i) {
         const Wedge* w = wedges.wedge.data() + wedges.offset[i];
         Index* out = rings.neighbor.data() + rings.offset[i];
         const Index d = rings.size(i);
         for (Index j = 0; j < d; ++j) out[j] = j < wedges.offset[i + 1] - wedges.offset[i] ? w[j].from : w[j - 1].to;
-    }
+    });
     return rings;
 }
 
 void find_flaps(Rings& rings) {
     rings.flap.assign(rings.neighbor.size(), -1);
-#pragma omp parallel for schedule(static)
-    for (Index i = 0; i < rings.rows(); ++i) {
+    parallel_for(rings.rows(), [&](Index i) {
         const Index d = rings.size(i);
         const Index* r = rings.begin(i);
         const Index links = rings.kind[i] == RingKind::closed ? d : d - 1;
@@ -199,7 +197,7 @@ void find_flaps(Rings& rings) {
             const Index flap = rings.size(a) > 0 ? beside(rings, a, b, i) : beside(rings, b, a, i);
             rings.flap[rings.offset[i] + j] = flap;
         }
-    }
+    });
 }
 
 void mark_features_by_angle(Rings& rings, const Positions& positions, double degrees) {
@@ -217,13 +215,13 @@ void mark_features_by_angle(Rings& rings, const Positions& positions, double deg
         return size > 0 && n.dot(m) < limit * size;
     };
     // Both ends must agree to the last bit, so the angle is computed at one of them.
-#pragma omp parallel for schedule(static)
-    for (Index i = 0; i < rings.rows(); ++i)
+    parallel_for(rings.rows(), [&](Index i) {
         for (Index j = 0; j < rings.size(i); ++j) {
             const Index other = rings.begin(i)[j];
             const bool here = i < other || rings.size(other) == 0;
             rings.feature[rings.offset[i] + j] |= here ? sharp(i, j) : sharp(other, find_in(rings, other, i));
         }
+    });
 }
 
 void mark_features(Rings& rings, const Faces& faces, const std::vector<std::uint8_t>& edges) {

@@ -31,11 +31,11 @@ struct Layer {
 
 /// A mesh made of vertices of another one; the host carries all attributes over by these indices.
 struct DerivedMesh {
-    std::string name;                  ///< label of the new layer
-    std::vector<Index> source_vertex;  ///< #V' indices into the input's vertices
-    Faces faces;                       ///< #F' by 3 indices into source_vertex
-    std::vector<Index> source_face;    ///< #F' indices into the input's faces: where face attributes come from
+    std::string name;                    ///< label of the new layer
+    std::vector<Index> source_vertex;    ///< #V' indices into the input's vertices
+    Faces faces;                         ///< #F' by 3 indices into source_vertex
+    std::vector<Index> source_face;      ///< #F' indices into the input's faces: where face attributes come from
     std::optional<Positions> positions;  ///< #V' by 3 where they differ from the source vertices'
 };
 
-} // namespace multires
+}  // namespace multires

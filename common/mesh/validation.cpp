@@ -1,10 +1,12 @@
 #include "mesh/validation.h"
 
 #include "mesh/adjacency.h"
+#include "parallel/parallel.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <functional>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -238,17 +240,14 @@ InputCounts count_input(const Mesh& mesh, const Rings& rings) {
     counts.faces = static_cast<Index>(mesh.faces.size());
     counts.non_manifold_vertices =
         static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::irregular));
-#pragma omp parallel sections
-    {
-#pragma omp section
-        count_edges(mesh, counts);
-#pragma omp section
-        count_vertices(mesh, counts);
-#pragma omp section
-        count_faces(mesh, counts);
-#pragma omp section
-        counts.components = count_components(mesh);
-    }
+    const std::array<std::function<void()>, 4> parts = {
+        [&] { count_edges(mesh, counts); },
+        [&] { count_vertices(mesh, counts); },
+        [&] { count_faces(mesh, counts); },
+        [&] { counts.components = count_components(mesh); },
+    };
+    parallel_for(
+        4, [&](Index i) { parts[i](); }, 1);
     if (counts.inconsistent_edges > 0) counts.non_orientable_components = count_non_orientable(mesh);
     return counts;
 }

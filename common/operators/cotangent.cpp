@@ -64,28 +64,28 @@ public:
     }
 
 private:
-    /// True if an edge of no length makes the angle of triangle j meaningless; nothing is unfolded across it.
-    bool is_gap(Index j) const {
-        return star_.solid[j] == 0 && std::min(star_.square[j], star_.square[star_.next[j]]) <=
-                                          1e-12 * std::max(star_.square[j], star_.square[star_.next[j]]);
-    }
-
     /// Flips spoke j if the angles opposite to it sum to more than 180 degrees. The unfolded quadrilateral is convex
     /// then (its other two angles sum to less than 180), so the merged triangle is a triangle.
     bool flip(Index j) {
         const Index i = star_.previous[j], k = star_.next[j];
         const double d1 = star_.dot[i], c1 = star_.area[i], d2 = star_.dot[j], c2 = star_.area[j];
-        if ((star_.square[i] - d1) * c2 + (star_.square[k] - d2) * c1 >= 0) return false;
-        if (is_gap(i) || is_gap(j)) return false;
+        const double sum = (star_.square[i] - d1) * c2 + (star_.square[k] - d2) * c1;  // has the sign of cot + cot
+        if (sum >= 0 && !is_hidden(i, j, k)) return false;
         const double c = c1 * d2 + d1 * c2;  // sine and cosine of the sum of both angles
-        if (!(c > 0)) return false;
+        if (!(c > 0)) return false;          // a spoke of no length has no angle, nothing is unfolded across it
         star_.area[i] = c / star_.square[j];
         star_.dot[i] = (d1 * d2 - c1 * c2) / star_.square[j];
-        star_.solid[i] = 1;
+        star_.solid[i] = std::max(star_.solid[i], star_.solid[j]);
         star_.next[i] = k;
         star_.previous[k] = i;
         --alive_;
         return true;
+    }
+
+    /// True if a degenerate triangle shows that neighbour j lies behind i or k, or on one of them (then one is hidden).
+    bool is_hidden(Index i, Index j, Index k) const {
+        return (star_.solid[i] == 0 && star_.dot[i] > 0 && star_.square[j] > star_.square[i]) ||
+               (star_.solid[j] == 0 && star_.dot[j] > 0 && star_.square[j] >= star_.square[k]);
     }
 
     StarGeometry& star_;

@@ -1,13 +1,12 @@
 #include "operators/relaxation.h"
 
 #include "operators/kernels.h"
+#include "parallel/parallel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <unordered_map>
-
-#include <omp.h>
 
 namespace multires {
 
@@ -42,20 +41,17 @@ bool is_second_difference(Operator op) {
     return op == Operator::second_difference || op == Operator::second_difference_flaps;
 }
 
-/// Calls row(relaxation, r) for all rows in parallel and returns those for which it said false, ascending. The schedule
-/// is static, so threads own consecutive rows and their lists follow each other.
+/// Calls row(relaxation, r) for all rows in parallel and returns those for which it said false, ascending.
 template <class Row>
 std::vector<Index> for_rows(Index rows, const RelaxationOptions& options, const Row& row) {
-    std::vector<std::vector<Index>> kept(omp_get_max_threads());
-#pragma omp parallel
-    {
+    constexpr Index chunk = 512;
+    std::vector<std::vector<Index>> kept((rows + chunk - 1) / chunk);
+    parallel_chunks(rows, chunk, [&](Index begin, Index end) {
         RowRelaxation relaxation(options);
-        std::vector<Index>& mine = kept[omp_get_thread_num()];
-#pragma omp for schedule(static)
-        for (Index r = 0; r < rows; ++r) {
-            if (!row(relaxation, r)) mine.push_back(r);
+        for (Index r = begin; r < end; ++r) {
+            if (!row(relaxation, r)) kept[begin / chunk].push_back(r);
         }
-    }
+    });
     std::vector<Index> all;
     for (const std::vector<Index>& part : kept) all.insert(all.end(), part.begin(), part.end());
     return all;
@@ -64,12 +60,11 @@ std::vector<Index> for_rows(Index rows, const RelaxationOptions& options, const 
 Positions relaxed(const Rings& rings, const std::vector<Index>& offset, const std::vector<Index>& column,
                   const std::vector<double>& weight, const std::vector<Index>& kept, const Positions& f) {
     Positions result(f);
-#pragma omp parallel for schedule(static)
-    for (Index r = 0; r < rings.rows(); ++r) {
+    parallel_for(rings.rows(), [&](Index r) {
         Vec3 sum = Vec3::Zero();
         for (Index k = offset[r]; k < offset[r + 1]; ++k) sum += weight[k] * f[column[k]];
         result[rings.vertex(r)] = sum;
-    }
+    });
     for (const Index r : kept) result[rings.vertex(r)] = f[rings.vertex(r)];
     return result;
 }

@@ -1,14 +1,12 @@
 #include "transform/relaxation_transform.h"
 
+#include "parallel/parallel.h"
 #include "transform/frame.h"
 
 #include <algorithm>
 
 namespace multires {
 namespace {
-
-/// Below this many rows a parallel loop costs more than it saves.
-constexpr Index parallel_rows = 2048;
 
 /// Rows of weights over the columns of their rings or, for operators with flaps, over their own.
 struct Stencil {
@@ -65,8 +63,7 @@ template <int Width, class Keep>
 void relax_rows(const Stencil& s, const Field& f, Field& out, const Keep& keep) {
     const Sums<Width> sums{s};
     const Index rows = s.rings->rows();
-#pragma omp parallel for schedule(static) if (rows > parallel_rows)
-    for (Index r = 0; r < rows; ++r) sums.row(r, f, out.row(r));
+    parallel_for(rows, [&](Index r) { sums.row(r, f, out.row(r)); });
     for (const Index r : s.kept()) std::copy_n(f.row(keep(r)), f.width, out.row(r));
 }
 
@@ -126,11 +123,10 @@ private:
         Field relaxed(level.even.rows(), width);
         if (options_.presmooth > 0) {
             relax_rows(even_[k], f, relaxed, [&](Index r) { return level.even.vertex(r); });
-#pragma omp parallel for schedule(static) if (level.even.rows() > parallel_rows)
-            for (Index r = 0; r < level.even.rows(); ++r) {
+            parallel_for(level.even.rows(), [&](Index r) {
                 double* c = g.row(level.even.vertex(r));
                 for (int i = 0; i < width; ++i) c[i] += options_.presmooth * (relaxed.row(r)[i] - c[i]);
-            }
+            });
         }
         d.odd = Field(level.odd.rows(), width);
         predict_odd(k, g, [&](Index r, const double* predicted, const Frame* frame) {
@@ -141,12 +137,11 @@ private:
         relax_rows(even_[k], g, relaxed, [&](Index r) { return level.even.vertex(r); });
         d.even = Field(level.even.rows(), width);
         const bool frames = framed(f);
-#pragma omp parallel for schedule(static) if (level.even.rows() > parallel_rows)
-        for (Index r = 0; r < level.even.rows(); ++r) {
+        parallel_for(level.even.rows(), [&](Index r) {
             Frame frame;
             if (frames) frame = frame_of(level.even, r, g);
             store(f.row(level.even.vertex(r)), relaxed.row(r), frames ? &frame : nullptr, width, d.even.row(r));
-        }
+        });
         g.values.resize(static_cast<std::size_t>(level.coarse) * width);
         f = std::move(g);
     }
@@ -172,21 +167,19 @@ private:
         relax_rows(even_[k], f, relaxed, [&](Index r) { return level.even.vertex(r); });
         const bool frames = framed(f);
         if (frames) {  // in place: frames need the old values of all
-#pragma omp parallel for schedule(static) if (level.even.rows() > parallel_rows)
-            for (Index r = 0; r < level.even.rows(); ++r) {
+            parallel_for(level.even.rows(), [&](Index r) {
                 const Frame frame = frame_of(level.even, r, f);
                 double* to = relaxed.row(r);
                 restore(d.even.row(r), to, &frame, width, gain, to);
-            }
+            });
         }
-#pragma omp parallel for schedule(static) if (level.even.rows() > parallel_rows)
-        for (Index r = 0; r < level.even.rows(); ++r) {
+        parallel_for(level.even.rows(), [&](Index r) {
             double* to = f.row(level.even.vertex(r));
             if (frames)
                 std::copy_n(relaxed.row(r), width, to);
             else
                 restore(d.even.row(r), relaxed.row(r), nullptr, width, gain, to);
-        }
+        });
         if (guskov) std::copy(odd.values.begin(), odd.values.end(), f.row(level.coarse));
     }
 
@@ -225,8 +218,7 @@ private:
             take(r, predicted, frames ? &frame : nullptr);
         };
         if (level.independent) {
-#pragma omp parallel for schedule(static) if (level.odd.rows() > parallel_rows)
-            for (Index r = 0; r < level.odd.rows(); ++r) one(r);
+            parallel_for(level.odd.rows(), [&](Index r) { one(r); });
         } else {
             for (Index r = 0; r < level.odd.rows(); ++r) one(r);
         }

@@ -1,20 +1,20 @@
 #include "transform/transform.h"
 
+#include "parallel/parallel.h"
+
 #include <algorithm>
 
 namespace multires {
 
 Field to_places(const Hierarchy& hierarchy, const Field& input) {
     Field out(input.rows(), input.width);
-#pragma omp parallel for schedule(static)
-    for (Index p = 0; p < out.rows(); ++p) std::copy_n(input.row(hierarchy.order[p]), input.width, out.row(p));
+    parallel_for(out.rows(), [&](Index p) { std::copy_n(input.row(hierarchy.order[p]), input.width, out.row(p)); });
     return out;
 }
 
 Field to_input(const Hierarchy& hierarchy, const Field& places) {
     Field out(places.rows(), places.width);
-#pragma omp parallel for schedule(static)
-    for (Index p = 0; p < out.rows(); ++p) std::copy_n(places.row(p), places.width, out.row(hierarchy.order[p]));
+    parallel_for(out.rows(), [&](Index p) { std::copy_n(places.row(p), places.width, out.row(hierarchy.order[p])); });
     return out;
 }
 

@@ -6,7 +6,7 @@
 #include "shapes.h"
 
 #include <benchmark/benchmark.h>
-#include <omp.h>
+#include "parallel/parallel.h"
 
 namespace {
 
@@ -46,8 +46,8 @@ void GatherRings(benchmark::State& state) {
 
 void Weights(benchmark::State& state, Operator op) {
     const Input& in = input();
-    const int threads = omp_get_max_threads();
-    omp_set_num_threads(1);
+    const int threads = thread_count();
+    set_thread_count(1);
     RelaxationOptions options;
     options.op = op;
     for (auto _ : state) {
@@ -57,17 +57,17 @@ void Weights(benchmark::State& state, Operator op) {
             benchmark::DoNotOptimize(ring_weights(in.rings, in.mesh.positions, options).weight.data());
         }
     }
-    omp_set_num_threads(threads);
+    set_thread_count(threads);
     per_row(state);
 }
 
 void Relaxed(benchmark::State& state) {
     const Input& in = input();
-    const int threads = omp_get_max_threads();
-    omp_set_num_threads(1);
+    const int threads = thread_count();
+    set_thread_count(1);
     const RingWeights weights = ring_weights(in.rings, in.mesh.positions);
     for (auto _ : state) benchmark::DoNotOptimize(relaxed(in.rings, weights, in.mesh.positions).data());
-    omp_set_num_threads(threads);
+    set_thread_count(threads);
     per_row(state);
 }
 

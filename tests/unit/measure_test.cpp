@@ -4,7 +4,7 @@
 #include "shapes.h"
 
 #include <gtest/gtest.h>
-#include <omp.h>
+#include "parallel/parallel.h"
 
 #include <cmath>
 
@@ -132,18 +132,18 @@ TEST(Measure, NormalsOfDegenerateFacesAreZero) {
 TEST(Measure, SameForOneAndTwoThreads) {
     const Mesh mesh = shapes::scan(20000);
     const Positions after = shaken(mesh.positions, 0.01);
-    const int threads = omp_get_max_threads();
-    omp_set_num_threads(1);
+    const int threads = thread_count();
+    set_thread_count(1);
     const Change one = compare(mesh.faces, mesh.positions, after);
     const double angle = mean_normal_angle(mesh.faces, mesh.positions, after);
-    omp_set_num_threads(2);
+    set_thread_count(2);
     const Change two = compare(mesh.faces, mesh.positions, after);
     EXPECT_EQ(one.after.volume, two.after.volume);
     EXPECT_EQ(one.after.area, two.after.area);
     EXPECT_EQ(one.after.centroid, two.after.centroid);
     EXPECT_EQ(one.displacement.rms, two.displacement.rms);
     EXPECT_EQ(angle, mean_normal_angle(mesh.faces, mesh.positions, after));
-    omp_set_num_threads(threads);
+    set_thread_count(threads);
 }
 
 TEST(Measure, NothingMeasuresZero) {

@@ -4,9 +4,9 @@
 #include "random.h"
 #include "shapes.h"
 
+#include "parallel/parallel.h"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <cmath>
@@ -233,11 +233,11 @@ TEST(Relaxation, SameForOneAndTwoThreads) {
     const Mesh mesh = shapes::scan(3000);
     Rings rings = rings_of(mesh);
     mark_features_by_angle(rings, mesh.positions, 20);
-    const int threads = omp_get_max_threads();
+    const int threads = thread_count();
     for (const Operator op : all_operators) {
-        omp_set_num_threads(1);
+        set_thread_count(1);
         const Rows one = relaxation(rings, mesh.positions, with(op));
-        omp_set_num_threads(2);
+        set_thread_count(2);
         const Rows two = relaxation(rings, mesh.positions, with(op));
         EXPECT_EQ(one.column, two.column);
         EXPECT_EQ(one.weight, two.weight);
@@ -245,7 +245,7 @@ TEST(Relaxation, SameForOneAndTwoThreads) {
         const bool has_corners = op != Operator::second_difference && op != Operator::second_difference_flaps;
         EXPECT_EQ(one.kept.empty(), !has_corners);
     }
-    omp_set_num_threads(threads);
+    set_thread_count(threads);
 }
 
 TEST(Relaxation, OpenRingsInterpolateAlongTheBoundary) {
@@ -412,6 +412,46 @@ TEST(Cotangent, DelaunayInterpolatesOnAnEdgeAndSeesThroughHiddenNeighbours) {
     Vec3 mean = Vec3::Zero();
     for (int k = 0; k < 5; ++k) mean += w[k] * hidden.positions[k + 1];
     EXPECT_LT(mean.norm(), 1e-15);
+}
+
+TEST(Cotangent, CoincidentNeighboursShareTheWeightOfOne) {
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+        const ClosedStar star(planar_star(8, seed));
+        for (std::size_t twin = 1; twin <= 8; ++twin) {
+            Positions doubled(star.positions);
+            doubled.insert(doubled.begin() + static_cast<std::ptrdiff_t>(twin), doubled[twin]);
+            for (const Operator op : {Operator::cotangent, Operator::cotangent_delaunay}) {
+                const std::vector<double> one = star.weights(op);
+                std::vector<double> two = ClosedStar(doubled).weights(op);
+                two[twin - 1] += two[twin];
+                two.erase(two.begin() + static_cast<std::ptrdiff_t>(twin));
+                for (std::size_t k = 0; k < 8; ++k) EXPECT_NEAR(two[k], one[k], 1e-12 * (1 + std::abs(one[k]))) << seed;
+            }
+        }
+    }
+}
+
+TEST(Cotangent, NeighbourOnTheVertexIsLeftOut) {
+    const ClosedStar star({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}});
+    for (const Operator op : {Operator::cotangent, Operator::cotangent_clamped, Operator::cotangent_delaunay}) {
+        EXPECT_EQ(star.weights(op), (std::vector<double>{0, 0.25, 0.5, 0.25}));
+    }
+}
+
+TEST(Cotangent, DegenerateIsRelativeToTheEdges) {
+    // The vertex lies at this height above the edge between neighbours 1 and 3, whose length is 2.
+    for (const double scale : {1e-30, 1.0, 1e30}) {
+        for (const double height : {1e-12, 1e-8}) {
+            Positions p{{0, 0, 0}, {1, -height, 0}, {0, 1, 0}, {-1, -height, 0}};
+            for (Vec3& q : p) q *= scale;
+            const std::vector<double> w = ClosedStar(p).weights(Operator::cotangent);
+            if (height < 1e-10) {  // left out: half a star, as above
+                for (int k = 0; k < 3; ++k) EXPECT_NEAR(w[k], k == 1 ? 0.5 : 0.25, 1e-11);
+            } else {  // in: interpolation along the edge
+                for (int k = 0; k < 3; ++k) EXPECT_NEAR(w[k], k == 1 ? 0 : 0.5, 1e-7);
+            }
+        }
+    }
 }
 
 TEST(SecondDifference, MinimisesTheSumOfSquares) {
