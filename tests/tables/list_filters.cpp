@@ -1,8 +1,11 @@
 #include "all_tables.h"
+#include "shapes.h"
 
 #include <iostream>
+#include <stdexcept>
 
-// Prints all filters and their parameters (with the defaults for no mesh) as JSON, for tests of the hosts.
+// Prints all filters and their parameters as JSON, for tests of the hosts. The defaults are those for the mesh that
+// make_meshes writes to irregular_sphere.ply.
 
 using namespace multires::plugin;
 
@@ -56,9 +59,17 @@ private:
     bool first_ = true;
 };
 
+multires::Layer sphere() {
+    for (auto& [name, mesh] : multires::shapes::every_class())
+        if (name == "irregular_sphere") return {std::move(mesh), {}, {}, {}, {}};
+    throw std::logic_error("irregular_sphere is gone");
+}
+
 } // namespace
 
 int main() {
+    const multires::Layer layer = sphere();
+    std::cout.precision(9);
     std::cout << "[";
     const char* comma = "";
     for (const Plugin* plugin : all_tables())
@@ -67,7 +78,7 @@ int main() {
                       << ", \"python_name\": " << quoted(filter.python_name) << ",\n    \"changes\": " << filter.changes
                       << ", \"parameters\": [";
             Printer printer;
-            filter.parameters(printer, nullptr);
+            filter.parameters(printer, &layer);
             std::cout << "]}";
             comma = ",";
         }

@@ -1,0 +1,25 @@
+#!/bin/bash
+# Builds everything and runs every test: unit tests, plugins in their hosts, format, lint. Ends with one line,
+# "N passed, N failed". May be run at any time; what is unchanged is not built or linted again.
+set -uo pipefail
+cd "$(dirname "$0")/.."
+presets=(pymeshlab-2025.07 debian-2020.09 headers-2022.02)
+
+stop() {
+    echo "$1" >&2
+    echo "0 passed, 1 failed"
+    exit 1
+}
+
+scripts/setup.sh || stop "setup failed"
+for preset in "${presets[@]}"; do
+    echo "Building $preset"
+    rm -f "build/$preset"/ctest.xml "build/$preset"/pytest_*.xml
+    cmake --preset "$preset" --log-level=WARNING >/dev/null || stop "cannot configure $preset"
+    cmake --build --preset "$preset" || stop "cannot build $preset"
+done
+for preset in "${presets[@]}"; do
+    ctest --preset "$preset" --parallel "$(nproc)" --output-junit ctest.xml --progress ||
+        true # counted below
+done
+exec python3 scripts/count_tests.py "${presets[@]/#/build/}"

@@ -1,0 +1,205 @@
+"""The plugins in MeshLab 2020.09 as Debian packages it: meshlabserver with scripts, and the menus of the GUI.
+
+Both look for plugins only next to themselves, so they run from a private tree: copies of the two programs (Linux finds
+a program's place through links), links to their library and to one plugin that reads and writes PLY, and ours.
+"""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import xml.etree.ElementTree as ET
+
+import numpy as np
+import pymeshlab
+import pytest
+from conftest import FILTER_IDS, FILTERS, PLUGINS, PROBES
+
+@pytest.fixture(scope="session")
+def tree(tmp_path_factory):
+    root = tmp_path_factory.mktemp("meshlab")
+    server = pathlib.Path(shutil.which("meshlabserver", path="/usr/bin"))
+    installed = next(server.parent.parent.glob("lib/*/meshlab"))
+    here = root / "lib" / installed.parent.name / "meshlab"
+    (here / "plugins").mkdir(parents=True)
+    (root / "bin").mkdir()
+    for program in (server, server.with_name("meshlab")):
+        shutil.copy(program, root / "bin")
+    (here / "libmeshlab-common.so").symlink_to(installed / "libmeshlab-common.so")
+    for plugin in [installed / "plugins/libio_base.so", *PROBES.glob("*.so"), *PLUGINS]:
+        (here / "plugins" / plugin.name).symlink_to(plugin)
+    return root
+
+
+@pytest.fixture(scope="session")
+def display():
+    """Number of an X display of our own."""
+    reading, writing = os.pipe()
+    xvfb = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24", "-nolisten", "tcp"],
+        pass_fds=[writing],
+        stderr=subprocess.DEVNULL,
+    )
+    os.close(writing)
+    with os.fdopen(reading) as pipe:
+        number = pipe.readline().strip()
+    assert number, "Xvfb did not start"
+    yield number
+    xvfb.terminate()
+    xvfb.wait()
+
+
+@pytest.fixture(scope="session")
+def run(tree, display):
+    """Runs a program of the tree, away from the user's display and settings."""
+
+    def run(program, *arguments, **variables):
+        own = {"HOME": tree, "XDG_CONFIG_HOME": tree / "config", "XDG_RUNTIME_DIR": tree, "DISPLAY": ":" + display}
+        return subprocess.run(
+            [tree / "bin" / program, *map(str, arguments)],
+            env={**os.environ, **{key: str(value) for key, value in own.items()}, **variables},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            timeout=120,
+        )
+
+    return run
+
+
+def script(path, name, parameters):
+    """Writes a filter script. It names every parameter: Debian's meshlabserver aborts if two are missing."""
+    root = ET.Element("FilterScript")
+    element = ET.SubElement(root, "filter", name=name)
+    rich = {"boolean": "RichBool", "integer": "RichInt", "real": "RichFloat", "slider": "RichDynamicFloat", "choice": "RichEnum"}
+    for p in parameters:
+        value = str(p["value"]).lower() if p["type"] == "boolean" else str(p["value"])
+        param = ET.SubElement(element, "Param", type=rich[p["type"]], name=p["name"], value=value)
+        if p["type"] == "slider":
+            param.set("min", str(p["least"]))
+            param.set("max", str(p["most"]))
+        if p["type"] == "choice":
+            param.set("enum_cardinality", str(len(p["names"])))
+            for i, text in enumerate(p["names"]):
+                param.set(f"enum_val{i}", text)
+    path.write_text("<!DOCTYPE FilterScript>\n" + ET.tostring(root, encoding="unicode"))
+    return path
+
+
+class Server:
+    """meshlabserver applying one filter to one mesh."""
+
+    def __init__(self, run, folder):
+        self.run, self.folder, self.output = run, folder, folder / "out.ply"
+
+    def apply(self, mesh, name, parameters, *layer):
+        mlx = script(self.folder / "script.mlx", name, parameters)
+        done = self.run("meshlabserver", "-i", mesh, "-s", mlx, "-o", self.output, *layer, "-m", "vc", "vq", "vn")
+        return done.returncode, done.stdout
+
+
+@pytest.fixture
+def server(run, tmp_path):
+    return Server(run, tmp_path)
+
+
+_documents = []  # a mesh of pymeshlab lives no longer than its document
+
+
+def load(path):
+    _documents.append(pymeshlab.MeshSet())
+    _documents[-1].load_new_mesh(str(path))
+    return _documents[-1].current_mesh()
+
+
+def real(name, value):
+    return {"name": name, "type": "real", "value": value}
+
+
+def fail(value):
+    return {"name": "fail", "type": "choice", "value": value, "names": ["no", "input", "internal", "memory", "unknown"]}
+
+
+ALL = [
+    {"name": "flag", "type": "boolean", "value": False},
+    {"name": "count", "type": "integer", "value": 9},
+    real("length", 1.5),
+    {"name": "amount", "type": "slider", "value": 0.75, "least": 0, "most": 1},
+    {"name": "color", "type": "choice", "value": 2, "names": ["red", "green", "blue"]},
+]
+
+
+def changed(name, value):
+    return [{**p, "value": value} if p["name"] == name else p for p in ALL]
+
+
+def test_parameters_come_through_and_numbers_are_logged(server, meshes):
+    code, log = server.apply(meshes / "disk.ply", "Multiresolution: Parameters (probe)", ALL)
+    assert code == 0, log
+    for line in ("the probe ran", "flag: false", "count: 9", "length: 1.5 mesh units", "amount: 0.75", "color: 2", "list: 1 2.5 4"):
+        assert line in log
+
+
+@pytest.mark.parametrize("name, value", [("count", 0), ("count", 11), ("length", -1), ("length", "nan"), ("amount", 7), ("color", 3), ("color", -1)])
+def test_values_out_of_range_are_refused_by_name(server, meshes, name, value):
+    code, log = server.apply(meshes / "disk.ply", "Multiresolution: Parameters (probe)", changed(name, value))
+    assert code != 0 and f'Parameter "{name}"' in log
+
+
+def test_results_are_written(server, meshes):
+    code, log = server.apply(meshes / "terrain.ply", "Multiresolution: Change (probe)", [real("shift", 2.5), fail(0)])
+    assert code == 0, log
+    old, new = load(meshes / "terrain.ply"), load(server.output)
+    np.testing.assert_allclose(new.vertex_matrix(), old.vertex_matrix() + [0, 0, 2.5], atol=1e-5)
+    np.testing.assert_array_equal(new.vertex_scalar_array(), np.arange(old.vertex_number()))
+    np.testing.assert_allclose(new.vertex_color_matrix()[:, :3], 1 - old.vertex_color_matrix()[:, :3], atol=1e-6)
+
+
+@pytest.mark.parametrize("how, message", [(1, "the probe refuses this mesh"), (2, "Internal error"), (3, "Not enough memory"), (4, "Internal error")])
+@pytest.mark.parametrize("what", ["Change", "Derive"])
+def test_failures_are_told_and_not_thrown(server, meshes, what, how, message):
+    code, log = server.apply(meshes / "disk.ply", f"Multiresolution: {what} (probe)", [real("shift", 1), fail(how)])
+    assert code == 255, log  # not a signal: meshlabserver itself gives up
+    assert message in log and "Problem with filter" in log
+
+
+def test_a_new_layer_is_made_with_its_colours(server, meshes):
+    code, log = server.apply(
+        meshes / "terrain.ply", "Multiresolution: Derive (probe)", [real("shift", 0), fail(0)], "-l", "x"
+    )
+    assert code == 0, log
+    old = load(meshes / "terrain.ply")
+    new = load(server.output)
+    assert new.face_number() == (old.face_number() + 1) // 2
+    used = np.unique(old.face_matrix()[::2])
+    colors = {tuple(c) for c in np.round(255 * old.vertex_color_matrix()[used, :3])}
+    assert {tuple(c) for c in np.round(255 * new.vertex_color_matrix()[:, :3])} == colors
+
+
+def test_a_point_cloud_is_refused(server, tmp_path):
+    cloud = tmp_path / "cloud.ply"
+    cloud.write_text(
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nend_header\n"
+        "0 0 0\n1 0 0\n0 1 0\n"
+    )
+    code, log = server.apply(cloud, "Multiresolution: Change (probe)", [real("shift", 1), fail(0)])
+    assert code == 255 and "no faces" in log
+
+
+@pytest.mark.parametrize("row", FILTERS, ids=FILTER_IDS)
+def test_filter_runs_in_meshlabserver(server, meshes, row):
+    code, log = server.apply(meshes / "irregular_sphere.ply", row["name"], row["parameters"])
+    assert code == 0, log
+    old, new = load(meshes / "irregular_sphere.ply"), load(server.output)
+    new_layer = row["changes"] & 64  # the last layer is what is saved
+    assert new.vertex_number() <= old.vertex_number() if new_layer else new.vertex_number() == old.vertex_number()
+    assert np.isfinite(new.vertex_matrix()).all()
+
+
+def test_the_menu_of_the_gui_has_every_filter(run, tmp_path):
+    menu = tmp_path / "menu.txt"
+    done = run("meshlab", MULTIRES_MENU_FILE=str(menu))
+    assert done.returncode == 0, done.stdout
+    entries = [line.split("/") for line in menu.read_text().splitlines() if line.startswith("Filters/")]
+    for row in FILTERS:
+        assert any(entry[-1] == row["name"] and len(entry) == 3 for entry in entries), row["name"]
