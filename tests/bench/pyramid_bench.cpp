@@ -1,0 +1,83 @@
+// Cost of a pyramid and its parts per vertex, on the horse of ../shared (if it is there) and on generated scans.
+// MULTIRES_THREADS=1 shows one thread.
+
+#include "filters/pyramid.h"
+#include "mesh/adjacency.h"
+#include "shapes.h"
+
+#include <benchmark/benchmark.h>
+
+#include <map>
+
+namespace {
+
+using namespace multires;
+
+const Layer& scan(Index vertices) {
+    static std::map<Index, Layer> kept;
+    Layer& layer = kept[vertices];
+    if (layer.mesh.positions.empty()) layer.mesh = shapes::scan(vertices);
+    return layer;
+}
+
+void per_vertex(benchmark::State& state, const Layer& layer) {
+    state.counters["per_vertex"] =
+        benchmark::Counter(static_cast<double>(layer.mesh.positions.size()),
+                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+PyramidOptions options_of(benchmark::State& state) {
+    PyramidOptions o;
+    if (state.range(1) == 0) {  // Roy's: cotangent weights, no presmoothing
+        o.scheme = Scheme::roy;
+        o.op = Operator::cotangent_clamped;
+        o.presmooth = 0;
+    }
+    return o;
+}
+
+void Rings(benchmark::State& state) {
+    const Layer& layer = scan(static_cast<Index>(state.range(0)));
+    for (auto _ : state) benchmark::DoNotOptimize(vertex_rings(layer.mesh));
+    per_vertex(state, layer);
+}
+
+void HierarchyOnly(benchmark::State& state) {
+    const Layer& layer = scan(static_cast<Index>(state.range(0)));
+    const multires::Rings rings = vertex_rings(layer.mesh);
+    HierarchyOptions o;
+    o.flaps = state.range(1) == 1;
+    for (auto _ : state) benchmark::DoNotOptimize(build_hierarchy(rings, layer.mesh.positions, o));
+    per_vertex(state, layer);
+}
+
+void WholePyramid(benchmark::State& state) {
+    const Layer& layer = scan(static_cast<Index>(state.range(0)));
+    const PyramidOptions o = options_of(state);
+    for (auto _ : state) benchmark::DoNotOptimize(KeptPyramid(layer, o, Progress()));
+    per_vertex(state, layer);
+}
+
+void Synthesis(benchmark::State& state) {
+    const Layer& layer = scan(static_cast<Index>(state.range(0)));
+    const KeptPyramid pyramid(layer, options_of(state), Progress());
+    const std::vector<double> gain(pyramid.levels().size() - 1, 0.5);
+    for (auto _ : state) benchmark::DoNotOptimize(pyramid.transform().synthesise(pyramid.coefficients(), gain));
+    per_vertex(state, layer);
+}
+
+void ContentHash(benchmark::State& state) {
+    const Layer& layer = scan(static_cast<Index>(state.range(0)));
+    for (auto _ : state) benchmark::DoNotOptimize(content_hash(layer, {}));
+    per_vertex(state, layer);
+}
+
+// Second argument: 0 Roy with cotangent weights, 1 the default (Guskov, second differences with flaps, presmoothed).
+#define SIZES(mode) Args({48485, mode})->Args({1000000, mode})->Unit(benchmark::kMillisecond)->UseRealTime()
+BENCHMARK(Rings)->SIZES(1);
+BENCHMARK(HierarchyOnly)->SIZES(0)->SIZES(1);
+BENCHMARK(WholePyramid)->SIZES(0)->SIZES(1);
+BENCHMARK(Synthesis)->SIZES(0)->SIZES(1);
+BENCHMARK(ContentHash)->SIZES(1);
+
+}  // namespace
