@@ -156,8 +156,11 @@ void ring_after(Index i, const Ring& ring, const RingOf& ring_of, const OddParen
             if (ring.feature) {  // a feature edge that merges into this one
                 const Index jb = j > 0 ? j - 1 : ring.closed() ? ring.size - 1 : -1;
                 const Index ja = j + 1 < ring.size ? j + 1 : ring.closed() ? 0 : -1;
-                for (const Index k : {jb, ja})
-                    if (k >= 0 && odd_parent(ring.vertex[k]) == x) mark |= ring.marked(k);
+                for (const Index k : {jb, ja}) {
+                    const Index y = k >= 0 ? ring.vertex[k] : -1, to = y >= 0 ? odd_parent(y) : -1;
+                    if (to == x) mark |= ring.marked(k);
+                    if (to == i) mark |= ring_of(y).marked(ring_of(y).find(x));
+                }
             }
             emit(x, mark);
         } else if (u == i) {
