@@ -1,11 +1,11 @@
 #pragma once
 
 #include "mesh/adjacency.h"
+#include "parallel/parallel.h"
 #include "random.h"
 #include "shapes.h"
 
 #include <gtest/gtest.h>
-#include <omp.h>
 
 #include <algorithm>
 #include <map>
@@ -26,13 +26,10 @@ inline const std::vector<std::pair<std::string, Mesh>>& every_class() {
 /// Runs what follows with a number of threads, until the end of the scope.
 class Threads {
 public:
-    explicit Threads(int count) : before_(omp_get_max_threads()) { omp_set_num_threads(count); }
-    ~Threads() { omp_set_num_threads(before_); }
+    explicit Threads(int count) { set_thread_count(count); }
+    ~Threads() { set_thread_count(0); }
     Threads(const Threads&) = delete;
     Threads& operator=(const Threads&) = delete;
-
-private:
-    int before_;
 };
 
 inline Rings rings_with_flaps(const Mesh& mesh) {
