@@ -49,4 +49,4 @@ Rich make_parameter(const QString& name, const plugin::Hint& hint, const Value&.
 
 #endif
 
-} // namespace multires::host
+}  // namespace multires::host

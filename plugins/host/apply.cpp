@@ -61,7 +61,7 @@ std::string text(const Report::Value& value) {
     return out.str();
 }
 
-} // namespace
+}  // namespace
 
 const Filter& row(const plugin::Plugin& table, const QAction* action) {
     const std::string name = action->text().remove('&').toStdString();
@@ -72,11 +72,16 @@ const Filter& row(const plugin::Plugin& table, const QAction* action) {
 
 Interface::FilterClass menu_class(const Filter& filter) {
     switch (filter.menu_class) {
-    case plugin::MenuClass::smoothing: return Interface::Smoothing;
-    case plugin::MenuClass::remeshing: return Interface::Remeshing;
-    case plugin::MenuClass::quality: return Interface::Quality;
-    case plugin::MenuClass::layer: return Interface::Layer;
-    case plugin::MenuClass::measure: return Interface::Measure;
+    case plugin::MenuClass::smoothing:
+        return Interface::Smoothing;
+    case plugin::MenuClass::remeshing:
+        return Interface::Remeshing;
+    case plugin::MenuClass::quality:
+        return Interface::Quality;
+    case plugin::MenuClass::layer:
+        return Interface::Layer;
+    case plugin::MenuClass::measure:
+        return Interface::Measure;
     }
     throw std::logic_error("filter without a menu class");
 }
@@ -149,4 +154,4 @@ std::vector<std::string> log_lines(const Report& report) {
     return lines;
 }
 
-} // namespace multires::host
+}  // namespace multires::host

@@ -36,4 +36,4 @@ std::string describe_exception();
 /// A report as lines for the host's log: the filter's own, then a line for each number.
 std::vector<std::string> log_lines(const Report& report);
 
-} // namespace multires::host
+}  // namespace multires::host

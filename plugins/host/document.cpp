@@ -81,7 +81,7 @@ private:
     int added_ = 0;
 };
 
-} // namespace
+}  // namespace
 
 VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model) {
     AttributeRequest request;
@@ -114,4 +114,4 @@ void write_result(MeshDocument& document, MeshModel& model, const VcgLayer& flat
     if (layer) layer->finish();
 }
 
-} // namespace multires::host
+}  // namespace multires::host

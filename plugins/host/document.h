@@ -18,4 +18,4 @@ VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model);
 void write_result(MeshDocument& document, MeshModel& model, const VcgLayer& flat, Result& result,
                   const PyramidPointer& pyramid);
 
-} // namespace multires::host
+}  // namespace multires::host

@@ -41,4 +41,4 @@ bool Host::applyFilter(QAction* action, MeshDocument& document, const RichParame
     }
 }
 
-} // namespace multires::host
+}  // namespace multires::host

@@ -26,4 +26,4 @@ private:
     const plugin::Plugin& table_;
 };
 
-} // namespace multires::host
+}  // namespace multires::host

@@ -23,7 +23,7 @@ std::map<std::string, QVariant> values(const Report& report) {
     return map;
 }
 
-} // namespace
+}  // namespace
 
 Host::Host(const plugin::Plugin& table) : table_(table) {
     for (std::size_t id = 0; id < table.filters.size(); ++id) {
@@ -65,4 +65,4 @@ std::map<std::string, QVariant> Host::applyFilter(const QAction* action, const R
     throw MLException(QString::fromStdString(message));
 }
 
-} // namespace multires::host
+}  // namespace multires::host

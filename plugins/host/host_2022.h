@@ -4,7 +4,8 @@
 
 #include <QObject>
 
-/// The plugin class of MeshLab 2022.02 and later: a table of filters seen through FilterPlugin. host_2020.h is its twin.
+/// The plugin class of MeshLab 2022.02 and later: a table of filters seen through FilterPlugin. host_2020.h is its
+/// twin.
 namespace multires::host {
 
 class Host : public QObject, public FilterPlugin {
@@ -29,4 +30,4 @@ private:
     const plugin::Plugin& table_;
 };
 
-} // namespace multires::host
+}  // namespace multires::host

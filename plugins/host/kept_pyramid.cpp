@@ -20,7 +20,7 @@ PyramidSlot* find_slot(const CMeshO& mesh) {
     return nullptr;
 }
 
-} // namespace
+}  // namespace
 
 PyramidPointer kept_pyramid(const CMeshO& mesh) {
     const PyramidSlot* slot = find_slot(mesh);
@@ -34,4 +34,4 @@ PyramidPointer& pyramid_slot(CMeshO& mesh) {
     return Allocator::AddPerMeshAttribute<PyramidSlot>(mesh, attribute_name)().pyramid;
 }
 
-} // namespace multires::host
+}  // namespace multires::host

@@ -23,4 +23,4 @@ PyramidPointer kept_pyramid(const CMeshO& mesh);
 /// @throws std::bad_alloc
 PyramidPointer& pyramid_slot(CMeshO& mesh);
 
-} // namespace multires::host
+}  // namespace multires::host

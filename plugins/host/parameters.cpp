@@ -13,9 +13,7 @@ class Declarer final : public plugin::Parameters {
 public:
     void boolean(const char* name, bool& value, const Hint& hint) override { add<RichBool>(name, hint, value); }
     void integer(const char* name, int& value, const Hint& hint) override { add<RichInt>(name, hint, value); }
-    void real(const char* name, double& value, const Hint& hint) override {
-        add<RichFloat>(name, hint, finite(value));
-    }
+    void real(const char* name, double& value, const Hint& hint) override { add<RichFloat>(name, hint, finite(value)); }
     void slider(const char* name, double& value, const Hint& hint) override {
         add<RichDynamicFloat>(name, hint, finite(value), finite(hint.least), finite(hint.most));
     }
@@ -70,7 +68,7 @@ double checked_real(const char* name, double current, double given, const Hint& 
     return std::clamp(given, hint.least, hint.most);
 }
 
-} // namespace
+}  // namespace
 
 RichParameterList declare_parameters(const plugin::Filter& filter, const Layer* layer) {
     if (layer) try {
@@ -110,4 +108,4 @@ void ParameterReader::choice(const char* name, int& value, const std::vector<std
     value = given;
 }
 
-} // namespace multires::host
+}  // namespace multires::host

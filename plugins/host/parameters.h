@@ -27,4 +27,4 @@ private:
     const RichParameterList& list_;
 };
 
-} // namespace multires::host
+}  // namespace multires::host

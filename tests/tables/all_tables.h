@@ -10,4 +10,4 @@ namespace multires::plugin {
 /// `table` renamed to `table_<plugin>`; the definition is written by tests/tables/CMakeLists.txt.
 std::vector<const Plugin*> all_tables();
 
-} // namespace multires::plugin
+}  // namespace multires::plugin

@@ -65,7 +65,7 @@ multires::Layer sphere() {
     throw std::logic_error("irregular_sphere is gone");
 }
 
-} // namespace
+}  // namespace
 
 int main() {
     const multires::Layer layer = sphere();

@@ -65,7 +65,7 @@ private:
     std::set<std::string> names_;
 };
 
-} // namespace
+}  // namespace
 
 TEST(Tables, NamesAreUnique) {
     std::set<std::string> names, python_names, plugins;

@@ -13,7 +13,7 @@ using namespace plugin;
 
 const std::string probe = PROBE;
 
-// ---- parameters ------------------------------------------------------------------------------------------------------
+// ---- parameters ---------------------------------------------------------------------------------
 
 enum class Color { red, green, blue };
 
@@ -56,7 +56,7 @@ Result report_all(const Layer& layer, const AllOptions& o, Session& session) {
     return r;
 }
 
-// ---- results and failures --------------------------------------------------------------------------------------------
+// ---- results and failures -----------------------------------------------------------------------
 
 enum class Fail { no, input, internal, memory, unknown, cancel, not_finite, wrong_size, wrong_source };
 
@@ -76,12 +76,18 @@ void bind_change(Parameters& p, ChangeOptions& o) {
 
 void fail_early(Fail fail) {
     switch (fail) {
-    case Fail::input: throw InputError("the probe refuses this mesh");
-    case Fail::internal: throw std::logic_error("a bug in the probe");
-    case Fail::memory: throw std::bad_alloc();
-    case Fail::unknown: throw 42;
-    case Fail::cancel: throw Cancelled();
-    default: return;
+    case Fail::input:
+        throw InputError("the probe refuses this mesh");
+    case Fail::internal:
+        throw std::logic_error("a bug in the probe");
+    case Fail::memory:
+        throw std::bad_alloc();
+    case Fail::unknown:
+        throw 42;
+    case Fail::cancel:
+        throw Cancelled();
+    default:
+        return;
     }
 }
 
@@ -130,7 +136,7 @@ Result derive(const Layer& layer, const ChangeOptions& o, Session&) {
     return r;
 }
 
-// ---- what is kept with the mesh --------------------------------------------------------------------------------------
+// ---- what is kept with the mesh -----------------------------------------------------------------
 
 struct KeepOptions {
     double value = 0;
@@ -155,16 +161,22 @@ Result kept(const Layer&, const KeepOptions&, Session& session) {
     return r;
 }
 
-// ----------------------------------------------------------------------------------------------------------------------
+// ---- the table ----------------------------------------------------------------------------------
 
 Filter row(const std::string& menu_name, const std::string& python_name, MenuClass menu_class, std::uint32_t needs,
            std::uint32_t changes) {
-    return {"Multiresolution: " + menu_name + " (" + probe + ")", python_name + "_" + probe,
-            "Tests the host adapter.<br><i>Nobody</i>, <b>\"Nothing\"</b>, 2000.", menu_class, needs, vertex_color,
-            changes, nullptr, nullptr};
+    return {"Multiresolution: " + menu_name + " (" + probe + ")",
+            python_name + "_" + probe,
+            "Tests the host adapter.<br><i>Nobody</i>, <b>\"Nothing\"</b>, 2000.",
+            menu_class,
+            needs,
+            vertex_color,
+            changes,
+            nullptr,
+            nullptr};
 }
 
-} // namespace
+}  // namespace
 
 const Plugin& plugin::table() {
     static const Plugin plugin{
@@ -183,4 +195,4 @@ const Plugin& plugin::table() {
     return plugin;
 }
 
-} // namespace multires
+}  // namespace multires
