@@ -170,5 +170,5 @@ def save_small(picture, path, most_bytes=300_000):
     path.parent.mkdir(parents=True, exist_ok=True)
     picture.save(path, optimize=True)
     while path.stat().st_size > most_bytes:
-        picture.quantize(128, dither=Image.Dither.NONE).save(path, optimize=True)
+        picture.quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
         picture = picture.resize((int(picture.width * 0.9), int(picture.height * 0.9)), Image.Resampling.LANCZOS)
