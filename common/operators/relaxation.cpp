@@ -37,6 +37,11 @@ void inverse_lengths(const StarGeometry& star, double* weight) {
     for (Index j = 0; j < n; ++j) weight[j] /= sum;
 }
 
+bool has_feature(const Star& star) {
+    return star.feature != nullptr &&
+           std::any_of(star.feature, star.feature + star.size, [](auto f) { return f != 0; });
+}
+
 bool is_second_difference(Operator op) {
     return op == Operator::second_difference || op == Operator::second_difference_flaps;
 }
@@ -123,18 +128,19 @@ bool RowRelaxation::ring(const Star& star, const Positions& positions, double* w
     case Operator::second_difference_flaps:
         throw std::invalid_argument("RowRelaxation::ring: operator uses flaps");
     }
-    return found || nothing_left(star, weight);
+    return accept(found, star, star.size, weight);
 }
 
-bool RowRelaxation::nothing_left(const Star& star, double* weight) const {
-    const bool has_feature =
-        star.feature != nullptr && std::any_of(star.feature, star.feature + star.size, [](auto f) { return f != 0; });
-    if (has_feature) {
-        std::fill_n(weight, star.size, 0.0);
-    } else {
-        inverse_lengths(geometry_, weight);
+bool RowRelaxation::accept(bool found, const Star& star, Index columns, double* weight) {
+    if (found) {
+        double norm = 0;
+        for (Index k = 0; k < columns; ++k) norm += std::abs(weight[k]);
+        if (norm <= options_.largest_norm) return true;
     }
-    return !has_feature;
+    std::fill_n(weight, columns, 0.0);
+    if (has_feature(star)) return false;
+    if (!kernels::cotangent_delaunay(geometry_, weight)) inverse_lengths(geometry_, weight);
+    return true;
 }
 
 void RowRelaxation::flap_slots(const Star& star) {
@@ -205,9 +211,7 @@ bool RowRelaxation::flaps(const Star& star, const Positions& positions, Index* c
     }
     geometry_.load(star, positions, options_.degenerate);
     const kernels::Flaps flaps{star.flap, slot_.data(), &positions, positions[star.vertex], options_.degenerate};
-    if (kernels::second_difference(geometry_, star.feature, &flaps, columns, weight)) return true;
-    std::fill_n(weight, columns, 0.0);
-    return nothing_left(star, weight);
+    return accept(kernels::second_difference(geometry_, star.feature, &flaps, columns, weight), star, columns, weight);
 }
 
 RingWeights ring_weights(const Rings& rings, const Positions& positions, const RelaxationOptions& options) {

@@ -7,9 +7,9 @@
 
 /// Relaxation operators R: each predicts a vertex from its neighbours,  R f_v = sum_k weight_k f_k.
 ///
-/// Sign convention of the whole project: the Laplacian is L = R - I, so L f_v = (weighted mean of the neighbours) -
-/// f_v. It points towards the neighbours, is negative semidefinite where the weights are nonnegative and symmetrisable,
-/// and f + t L f with 0 < t <= 1 smooths. The detail of a vertex is its negative, f_v - R f_v.
+/// Sign convention of the whole project: the Laplacian is L = R - I, so L f_v = (mean of the neighbours) - f_v. It
+/// points towards the neighbours, is negative semidefinite where the weights are nonnegative and symmetrisable, and
+/// f + t L f with 0 < t <= 1 smooths. The detail of a vertex is its negative, f_v - R f_v.
 ///
 /// The weights depend on positions only and apply to every channel f (Roy 2003, eq. 3). They do not change under
 /// rotation, translation, reflection or scaling of the mesh.
@@ -17,16 +17,18 @@
 /// Rules that hold for all operators
 /// - Every row sums to 1 up to rounding, or is identically zero and listed in `kept`: that vertex keeps its value,
 ///   R f_v = f_v. Kept are vertices without a ring (irregular, isolated) and corners (below).
-/// - Boundary: a vertex with an open ring is relaxed along the boundary curve only, by linear interpolation of its two
-///   boundary neighbours with weights inverse to the edge lengths. It is kept if a feature edge meets the boundary
-///   there.
+/// - Boundary: a vertex with an open ring is relaxed along the boundary curve only, by linear interpolation of its
+///   two boundary neighbours with weights inverse to the edge lengths. It is kept if a feature edge meets the
+///   boundary there.
 /// - Feature edges: the second-order differences across them are left out of the sum (Guskov 1999, section 2.3). For
-///   the other operators a vertex with exactly two feature spokes is relaxed along the crease as if it were a boundary;
-///   with one, or more than two, it is a corner and kept. A link edge that is a feature is given by a flap of -1.
-/// - Degenerate triangles, those with 2 area <= `degenerate` x (sum of squared edge lengths), are left out. If nothing
-/// is
-///   left of a closed ring, its weights are inverse to the edge lengths (neighbours that coincide with the vertex, if
-///   there are any, share the weight), or the vertex is kept if it has feature spokes.
+///   the other operators a vertex with exactly two feature spokes is relaxed along the crease as if it were a
+///   boundary; with one, or more than two, it is a corner and kept. A link edge that is a feature is given by a flap
+///   of -1.
+/// - Degenerate triangles, those with 2 area <= `degenerate` x (sum of squared edge lengths), are left out.
+/// - Rows that would magnify rounding, sum_k |weight_k| > `largest_norm`, and closed rings of which nothing is left
+///   get the weights of cotangent_delaunay instead, or, if all triangles are degenerate, weights inverse to the edge
+///   lengths (neighbours that coincide with the vertex, if there are any, share the weight). If the vertex has feature
+///   spokes it is kept.
 namespace multires {
 
 /// The weight of neighbour j of vertex i, before each row is divided by its sum.
@@ -34,11 +36,10 @@ enum class Operator {
     /// 1 for all neighbours. Depends on the connectivity only: moves vertices within a plane. The baseline.
     umbrella,
     /// cot alpha_ij + cot beta_ij (Roy 2003, eq. 2; Meyer et al. 2002). Reproduces linear functions on planar meshes.
-    /// Negative where alpha + beta > 180 degrees, and large on slivers: the weights of a row are not bounded.
+    /// Negative where alpha + beta > 180 degrees, and large on slivers.
     cotangent,
-    /// The same with angles limited to [smallest_angle, 180 - smallest_angle] and negative sums set to 0. Weights are
-    /// in
-    /// [0, 1], but linear functions are reproduced only where nothing was limited.
+    /// The same with angles limited to [smallest_angle, 180 - smallest_angle] and negative sums set to 0. Weights
+    /// are in [0, 1], but linear functions are reproduced only where nothing was limited.
     cotangent_clamped,
     /// Cotangent weights of the star after its spokes with alpha + beta > 180 degrees were flipped intrinsically: both
     /// triangles are unfolded, the spoke drops out (weight 0) and its two ring neighbours become consecutive. Weights
@@ -59,6 +60,9 @@ struct RelaxationOptions {
     /// Triangles with 2 area <= this x (sum of squared edge lengths) count as degenerate. No unit; an equilateral
     /// triangle has 0.29, one with a base of 1 and a height of h << 1 about h / 2.
     double degenerate = 1e-10;
+    /// No unit, at least 1: the largest sum of the absolute weights of a row. Nonnegative rows have 1; on scans nearly
+    /// all rows of any operator stay below 10, on the slivers of machined parts they reach a million.
+    double largest_norm = 100;
     /// Degrees, for cotangent_clamped: angles nearer than this to 0 or 180 are taken as this far from them.
     double smallest_angle = 1;
 };
@@ -125,7 +129,7 @@ private:
         Index a = 0, b = 0;  ///< entries of the two neighbours along the curve, for Rule::curve
     };
     Curve rule(const Star& star) const;
-    bool nothing_left(const Star& star, double* weight) const;
+    bool accept(bool found, const Star& star, Index columns, double* weight);
     void flap_slots(const Star& star);
     void search_flaps(const Star& star);
     void hash_flaps(const Star& star);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace multires {
@@ -318,6 +319,26 @@ TEST(Relaxation, StarsOfDegenerateTrianglesFallBackOnLengths) {
     }
 }
 
+TEST(Relaxation, RowsThatWouldMagnifyRoundingAreThoseOfDelaunay) {
+    // A tall sliver on either side of the vertex: its plain cotangents are about 1 / height.
+    const double height = 1e-4;
+    const ClosedStar star({{0, 0, 0}, {1, 0, 0}, {0.4, height, 0}, {-1, 1, 0}, {-0.5, -1, 0}, {0.5, -height, 0}});
+    for (const Operator op : {Operator::cotangent, Operator::second_difference}) {
+        RelaxationOptions options = with(op);
+        const auto norm = [&] {
+            double sum = 0;
+            for (const double w : ring_weights(star.rings, star.positions, options).weight) sum += std::abs(w);
+            return sum;
+        };
+        options.largest_norm = std::numeric_limits<double>::infinity();
+        EXPECT_GT(norm(), 2) << static_cast<int>(op);
+        options.largest_norm = 0.99 * norm();
+        EXPECT_EQ(ring_weights(star.rings, star.positions, options).weight, star.weights(Operator::cotangent_delaunay));
+        options.largest_norm = 1.01 * options.largest_norm / 0.99;
+        EXPECT_NE(ring_weights(star.rings, star.positions, options).weight, star.weights(Operator::cotangent_delaunay));
+    }
+}
+
 TEST(Relaxation, FlapsAreRefusedWhereTheyCannotBe) {
     const ClosedStar star(planar_star(5, 1));
     EXPECT_THROW(ring_weights(star.rings, star.positions, with(Operator::second_difference_flaps)),
@@ -485,6 +506,8 @@ TEST(SecondDifference, OneEdgeGivesTheCoefficientsOfThePaper) {
     const Rings whole = rings;
     rings.feature.assign(rings.neighbor.size(), 1);
     rings.flap.assign(rings.neighbor.size(), -1);
+    RelaxationOptions options = with(Operator::second_difference_flaps);
+    options.largest_norm = std::numeric_limits<double>::infinity();
     const auto area = [](const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * (b - a).cross(c - a).z(); };
     for (Index r = 0; r < rings.rows(); ++r) {
         const Index n = rings.size(r), *ring = rings.begin(r), at = rings.offset[r];
@@ -507,7 +530,7 @@ TEST(SecondDifference, OneEdgeGivesTheCoefficientsOfThePaper) {
             c[k] = -length * area(p[0], p[2], p[3]) / (a1 * a2);
             EXPECT_NEAR(c[l1] + c[l2] + c[j] + c[k], 0, 1e-12 * length / std::abs(a1));
 
-            const Rows rows = relaxation(rings, mesh.positions, with(Operator::second_difference_flaps));
+            const Rows rows = relaxation(rings, mesh.positions, options);
             ASSERT_FALSE(is_kept(rows.kept, r));
             for (Index e = rows.offset[r]; e < rows.offset[r + 1]; ++e) {
                 EXPECT_NEAR(rows.weight[e], -c[rows.column[e]] / c[r], 1e-11 * largest_weight(rows, r));
