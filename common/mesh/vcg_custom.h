@@ -50,9 +50,9 @@ void set_component(vcg::Point3<S>& point, int k, double value) {
     point[k] = static_cast<S>(value);
 }
 template <class S>
-constexpr int width = 1;
+inline constexpr int width = 1;
 template <class S>
-constexpr int width<vcg::Point3<S>> = 3;
+inline constexpr int width<vcg::Point3<S>> = 3;
 
 /// What a reference to vcg::SimpleTempData gives by index.
 template <class Data>

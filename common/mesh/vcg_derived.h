@@ -127,15 +127,9 @@ void build_faces(M& target, const M& source, const VcgLayer& flat, const Derived
 template <class M>
 void build_wedges(M& target, const M& source, const VcgLayer& flat, const DerivedMesh& derived) {
     if (!vcg::tri::HasPerWedgeTexCoord(source)) return;
-    std::vector<Wedge> corners;
-    corners.reserve(3 * flat.host_face.size());
-    for (Index f : flat.host_face)
-        for (int k = 0; k < 3; ++k) {
-            const auto t = source.face[f].cWT(k);
-            corners.push_back({t.U(), t.V(), t.N()});
-        }
     const Mesh& mesh = flat.layer.mesh;
-    const WedgeCharts charts(static_cast<Index>(mesh.positions.size()), mesh.faces, std::move(corners));
+    const WedgeCharts charts(static_cast<Index>(mesh.positions.size()), mesh.faces,
+                             gather_wedges(source, flat.host_face));
     for (std::size_t i = 0; i < derived.faces.size(); ++i) {
         const FacePair pair(derived, mesh, i);
         const auto& original = source.face[flat.host_face[derived.source_face[i]]];
@@ -150,7 +144,7 @@ void build_wedges(M& target, const M& source, const VcgLayer& flat, const Derive
     }
 }
 
-constexpr const char* source_vertex_name = "source_vertex";
+inline constexpr const char* source_vertex_name = "source_vertex";
 
 /// Copies the named attributes in `from` by `rows`; `make(name, type pointer)` creates the one to be filled.
 template <class Container, class Make>
