@@ -1,0 +1,66 @@
+#pragma once
+
+#include "fixtures.h"
+#include "operators/relaxation.h"
+#include "random.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+/// What the tests of the relaxation operators share.
+namespace multires::fixtures {
+
+inline constexpr Operator all_operators[] = {Operator::umbrella,          Operator::cotangent,
+                                             Operator::cotangent_clamped, Operator::cotangent_delaunay,
+                                             Operator::second_difference, Operator::second_difference_flaps};
+inline constexpr Operator linear_precise[] = {Operator::cotangent, Operator::cotangent_delaunay,
+                                              Operator::second_difference, Operator::second_difference_flaps};
+
+inline RelaxationOptions with(Operator op) {
+    RelaxationOptions options;
+    options.op = op;
+    return options;
+}
+
+/// A closed star around vertex 0 whose ring is 1, 2, ..., n.
+struct ClosedStar {
+    explicit ClosedStar(Positions p) : positions(std::move(p)) {
+        rings.offset = {0, static_cast<Index>(positions.size()) - 1};
+        for (Index v = 1; v < static_cast<Index>(positions.size()); ++v) rings.neighbor.push_back(v);
+        rings.kind = {RingKind::closed};
+    }
+    std::vector<double> weights(Operator op) const { return ring_weights(rings, positions, with(op)).weight; }
+
+    Positions positions;
+    Rings rings;
+};
+
+/// n points at random distances and increasing angles around the origin, all gaps below 180 degrees; the origin first.
+inline Positions planar_star(Index n, std::uint64_t seed) {
+    shapes::Random random(seed);
+    Positions p{Vec3::Zero()};
+    for (Index j = 0; j < n; ++j) {
+        const double angle = 2 * std::acos(-1.0) * (j + random.uniform(0, 0.9)) / n, r = random.uniform(0.1, 2);
+        p.emplace_back(r * std::cos(angle), r * std::sin(angle), 0);
+    }
+    return p;
+}
+
+inline bool is_kept(const std::vector<Index>& kept, Index row) {
+    return std::binary_search(kept.begin(), kept.end(), row);
+}
+
+inline double sum_of_row(const Rows& rows, Index r) {
+    double sum = 0;
+    for (Index k = rows.offset[r]; k < rows.offset[r + 1]; ++k) sum += rows.weight[k];
+    return sum;
+}
+
+inline double largest_weight(const Rows& rows, Index r) {
+    double largest = 1;
+    for (Index k = rows.offset[r]; k < rows.offset[r + 1]; ++k) largest = std::max(largest, std::abs(rows.weight[k]));
+    return largest;
+}
+
+}  // namespace multires::fixtures

@@ -1,0 +1,235 @@
+#include "operator_fixtures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace multires {
+
+using namespace fixtures;
+
+TEST(Relaxation, RowsSumToOneOrAreKept) {
+    for (const auto& [name, mesh] : every_class()) {
+        const Rings rings = rings_with_flaps(mesh);
+        for (const Operator op : all_operators) {
+            const Rows rows = relaxation(rings, mesh.positions, with(op));
+            ASSERT_EQ(rows.offset.size(), rings.kind.size() + 1);
+            for (Index r = 0; r < rings.rows(); ++r) {
+                const double expected = is_kept(rows.kept, r) ? 0 : 1;
+                EXPECT_NEAR(sum_of_row(rows, r), expected, 1e-14 * largest_weight(rows, r) * (1 + rings.size(r)))
+                    << name << " operator " << static_cast<int>(op) << " row " << r;
+            }
+        }
+    }
+}
+
+TEST(Relaxation, WithoutFeaturesExactlyTheRowsWithoutRingAreKept) {
+    for (const auto& [name, mesh] : every_class()) {
+        const Rings rings = rings_with_flaps(mesh);
+        std::vector<Index> without;
+        for (Index r = 0; r < rings.rows(); ++r) {
+            if (rings.kind[r] == RingKind::irregular || rings.kind[r] == RingKind::isolated) without.push_back(r);
+        }
+        for (const Operator op : all_operators)
+            EXPECT_EQ(relaxation(rings, mesh.positions, with(op)).kept, without) << name;
+    }
+}
+
+TEST(Relaxation, LinearFunctionsOfPlanarMeshesAreReproduced) {
+    for (const Mesh& mesh : {shapes::plane(30), shapes::disk(15), shapes::plane(10, {0, 0, 1}), shapes::fan(300)}) {
+        const Rings rings = rings_with_flaps(mesh);
+        for (const Operator op : linear_precise) {
+            const Rows rows = relaxation(rings, mesh.positions, with(op));
+            const Positions result = relaxed(rings, rows, mesh.positions);
+            Index interior = 0;
+            for (Index r = 0; r < rings.rows(); ++r) {
+                if (rings.kind[r] != RingKind::closed) continue;
+                ++interior;
+                EXPECT_LT((result[r] - mesh.positions[r]).norm(), 1e-13 * largest_weight(rows, r))
+                    << "operator " << static_cast<int>(op) << " row " << r;
+            }
+            EXPECT_GT(interior, 0);
+        }
+    }
+}
+
+TEST(Relaxation, UmbrellaMovesVerticesWithinThePlane) {
+    const Mesh mesh = shapes::plane(30);
+    const Rings rings = rings_with_flaps(mesh);
+    const Positions result =
+        relaxed(rings, ring_weights(rings, mesh.positions, with(Operator::umbrella)), mesh.positions);
+    double largest = 0;
+    for (Index r = 0; r < rings.rows(); ++r) {
+        if (rings.kind[r] == RingKind::closed) largest = std::max(largest, (result[r] - mesh.positions[r]).norm());
+    }
+    EXPECT_GT(largest, 0.1 / 30);
+}
+
+TEST(Relaxation, WeightsNonnegativeWherePromised) {
+    for (const auto& [name, mesh] : every_class()) {
+        const Rings rings = rings_with_flaps(mesh);
+        for (const Operator op : {Operator::umbrella, Operator::cotangent_clamped, Operator::cotangent_delaunay}) {
+            for (const double w : ring_weights(rings, mesh.positions, with(op)).weight) {
+                EXPECT_GE(w, 0) << name;
+                EXPECT_LE(w, 1) << name;
+            }
+        }
+    }
+    const Mesh mesh = shapes::plane(30);  // the plain weights of this mesh are not all positive
+    const auto plain = ring_weights(rings_with_flaps(mesh), mesh.positions, with(Operator::cotangent)).weight;
+    EXPECT_LT(*std::min_element(plain.begin(), plain.end()), -0.01);
+}
+
+TEST(Relaxation, SameUnderRotationTranslationScalingAndReflection) {
+    const Eigen::AngleAxisd turn(1.1, Vec3(1, 2, 3).normalized());
+    for (const auto& [name, mesh] : every_class()) {
+        if (name == "collinear_faces" || name == "coincident_vertices") continue;  // degenerate up to rounding
+        const Rings rings = rings_with_flaps(mesh);
+        Positions moved(mesh.positions);
+        for (Vec3& p : moved) p = 1000 * (turn * Vec3(p.x(), p.y(), -p.z())) + Vec3(10, -20, 30);
+        for (const Operator op : all_operators) {
+            const Rows a = relaxation(rings, mesh.positions, with(op)), b = relaxation(rings, moved, with(op));
+            ASSERT_EQ(a.column, b.column);
+            EXPECT_EQ(a.kept, b.kept) << name;
+            for (Index r = 0; r < rings.rows(); ++r) {
+                for (Index k = a.offset[r]; k < a.offset[r + 1]; ++k) {
+                    ASSERT_NEAR(a.weight[k], b.weight[k], 1e-10 * largest_weight(a, r)) << name << " row " << r;
+                }
+            }
+        }
+    }
+}
+
+TEST(Relaxation, SameForOneAndTwoThreads) {
+    const Mesh mesh = shapes::scan(3000);
+    Rings rings = rings_with_flaps(mesh);
+    mark_features_by_angle(rings, mesh.positions, 20);
+    for (const Operator op : all_operators) {
+        set_thread_count(1);
+        const Rows one = relaxation(rings, mesh.positions, with(op));
+        set_thread_count(2);
+        const Rows two = relaxation(rings, mesh.positions, with(op));
+        EXPECT_EQ(one.column, two.column);
+        EXPECT_EQ(one.weight, two.weight);
+        EXPECT_EQ(one.kept, two.kept);
+        const bool has_corners = op != Operator::second_difference && op != Operator::second_difference_flaps;
+        EXPECT_EQ(one.kept.empty(), !has_corners);
+    }
+    set_thread_count(0);
+}
+
+TEST(Relaxation, OpenRingsInterpolateAlongTheBoundary) {
+    for (const Mesh& mesh : {shapes::plane(8), shapes::open_cylinder(9, 3), shapes::triangle()}) {
+        const Rings rings = rings_with_flaps(mesh);
+        for (const Operator op : all_operators) {
+            const Rows rows = relaxation(rings, mesh.positions, with(op));
+            for (Index r = 0; r < rings.rows(); ++r) {
+                if (rings.kind[r] != RingKind::open) continue;
+                const Index first = rows.offset[r], last = first + rings.size(r) - 1;
+                const double to_first = (mesh.positions[rows.column[first]] - mesh.positions[r]).norm();
+                const double to_last = (mesh.positions[rows.column[last]] - mesh.positions[r]).norm();
+                EXPECT_DOUBLE_EQ(rows.weight[first], to_last / (to_first + to_last));
+                EXPECT_DOUBLE_EQ(rows.weight[last], to_first / (to_first + to_last));
+                for (Index k = first + 1; k < last; ++k) EXPECT_EQ(rows.weight[k], 0);
+            }
+        }
+    }
+}
+
+TEST(Relaxation, RelaxedKeepsTheValuesOfKeptRows) {
+    const Mesh mesh = shapes::unreferenced_vertices();
+    const Rings rings = rings_with_flaps(mesh);
+    const Positions result = relaxed(rings, ring_weights(rings, mesh.positions), mesh.positions);
+    EXPECT_EQ(result[0], mesh.positions[0]);
+    EXPECT_EQ(result.back(), mesh.positions.back());
+    EXPECT_NE(result[1], mesh.positions[1]);
+}
+
+TEST(Relaxation, CreasesAndCorners) {
+    // Neighbours of vertex 0 at distances 1 and 2 along the crease, and two more.
+    ClosedStar star({{0, 0, 0}, {1, 0, 0}, {0, 1, -1}, {-2, 0, 0}, {0, -1, -1}});
+    for (const Operator op :
+         {Operator::umbrella, Operator::cotangent, Operator::cotangent_clamped, Operator::cotangent_delaunay}) {
+        star.rings.feature = {1, 0, 1, 0};
+        EXPECT_EQ(star.weights(op), (std::vector<double>{2.0 / 3, 0, 1.0 / 3, 0}));
+        for (const std::vector<std::uint8_t>& corner : {std::vector<std::uint8_t>{1, 0, 0, 0}, {1, 1, 1, 0}}) {
+            star.rings.feature = corner;
+            const RingWeights kept = ring_weights(star.rings, star.positions, with(op));
+            EXPECT_EQ(kept.kept, std::vector<Index>{0});
+            EXPECT_EQ(kept.weight, std::vector<double>(4, 0));
+        }
+        star.rings.feature = {0, 0, 0, 0};
+        EXPECT_TRUE(ring_weights(star.rings, star.positions, with(op)).kept.empty());
+    }
+    star.rings.feature = {1, 1, 1, 1};  // nothing is left of the sum
+    EXPECT_EQ(ring_weights(star.rings, star.positions, with(Operator::second_difference)).kept, std::vector<Index>{0});
+}
+
+TEST(Relaxation, CreaseMeetingTheBoundaryIsKept) {
+    ClosedStar star({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}});
+    star.rings.kind = {RingKind::open};
+    for (const Operator op : {Operator::cotangent, Operator::second_difference}) {
+        star.rings.feature = {1, 0, 1};  // along the boundary
+        EXPECT_EQ(star.weights(op), (std::vector<double>{0.5, 0, 0.5}));
+        star.rings.feature = {0, 1, 0};
+        EXPECT_EQ(ring_weights(star.rings, star.positions, with(op)).kept, std::vector<Index>{0});
+    }
+}
+
+TEST(Relaxation, StarsOfDegenerateTrianglesFallBackOnLengths) {
+    const ClosedStar line({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {4, 0, 0}});
+    const ClosedStar point({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {4, 0, 0}});
+    for (const Operator op : {Operator::cotangent, Operator::cotangent_clamped, Operator::cotangent_delaunay,
+                              Operator::second_difference}) {
+        const std::vector<double> inverse{4.0 / 7, 2.0 / 7, 1.0 / 7};
+        const std::vector<double> w = line.weights(op);
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(w[k], inverse[k], 1e-15);
+        EXPECT_EQ(point.weights(op), (std::vector<double>{0.5, 0.5, 0}));
+    }
+}
+
+TEST(Relaxation, RowsThatWouldMagnifyRoundingAreThoseOfDelaunay) {
+    // A tall sliver on either side of the vertex: its plain cotangents are about 1 / height.
+    const double height = 1e-4;
+    const ClosedStar star({{0, 0, 0}, {1, 0, 0}, {0.4, height, 0}, {-1, 1, 0}, {-0.5, -1, 0}, {0.5, -height, 0}});
+    for (const Operator op : {Operator::cotangent, Operator::second_difference}) {
+        RelaxationOptions options = with(op);
+        const auto norm = [&] {
+            double sum = 0;
+            for (const double w : ring_weights(star.rings, star.positions, options).weight) sum += std::abs(w);
+            return sum;
+        };
+        options.largest_norm = std::numeric_limits<double>::infinity();
+        EXPECT_GT(norm(), 2) << static_cast<int>(op);
+        options.largest_norm = 0.99 * norm();
+        EXPECT_EQ(ring_weights(star.rings, star.positions, options).weight, star.weights(Operator::cotangent_delaunay));
+        options.largest_norm = 1.01 * options.largest_norm / 0.99;
+        EXPECT_NE(ring_weights(star.rings, star.positions, options).weight, star.weights(Operator::cotangent_delaunay));
+    }
+}
+
+TEST(Relaxation, FlapsAreRefusedWhereTheyCannotBe) {
+    const ClosedStar star(planar_star(5, 1));
+    EXPECT_THROW(ring_weights(star.rings, star.positions, with(Operator::second_difference_flaps)),
+                 std::invalid_argument);
+    EXPECT_THROW(relaxation(star.rings, star.positions, with(Operator::second_difference_flaps)),
+                 std::invalid_argument);
+}
+
+TEST(Relaxation, LargeFansHaveRows) {
+    const Mesh mesh = shapes::fan(5000, 0.1);
+    const Rings rings = rings_with_flaps(mesh);
+    for (const Operator op : all_operators) {
+        const Rows rows = relaxation(rings, mesh.positions, with(op));
+        ASSERT_EQ(rows.offset[1], 5000);
+        // Second differences subtract cotangents of about n / 2 pi from each other to leave a millionth of them, and
+        // each is rounded to about n^2 epsilon: 4 digits are left.
+        const bool subtracts = op == Operator::second_difference || op == Operator::second_difference_flaps;
+        const double digits = subtracts ? 1e-3 : 1e-8;
+        for (Index k = 0; k < 5000; ++k) EXPECT_NEAR(5000 * rows.weight[k], 1, digits);
+    }
+}
+
+}  // namespace multires
