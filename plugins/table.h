@@ -32,6 +32,7 @@ public:
     /// A real with a slider between hint.least and hint.most, live in hosts that preview.
     virtual void slider(const char* name, double& value, const Hint& hint) = 0;
     virtual void choice(const char* name, int& value, const std::vector<std::string>& names, const Hint& hint) = 0;
+    virtual void text(const char* name, std::string& value, const Hint& hint) = 0;
 
     /// A choice bound to an enum whose values are 0, 1, ... in the order of the names.
     template <class Enum>
@@ -52,6 +53,7 @@ enum Parts : std::uint32_t {
     vertex_texcoord = 16,
     wedge_texcoord = 32,
     new_layer = 64,
+    custom_attributes = 128,  ///< of vertices, all that a Layer can hold
 };
 
 /// Where the filter appears in the host's menu.

@@ -76,6 +76,7 @@ struct Result {
     std::optional<Positions> positions;          ///< #V by 3
     std::optional<std::vector<double>> quality;  ///< #V, becomes the vertex quality
     std::vector<Attribute> attributes;           ///< new values of attributes given in the layer
+    std::optional<std::vector<Wedge>> wedges;    ///< 3 #F, new texture coordinates of the faces' corners
     std::optional<DerivedMesh> layer;            ///< becomes a new layer of the document
     Report report;
 };

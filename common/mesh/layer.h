@@ -19,6 +19,12 @@ struct Attribute {
     std::vector<double> values;  ///< #V by width, row-major
 };
 
+/// Texture coordinate of one corner of a face.
+struct Wedge {
+    double u = 0, v = 0;
+    int texture = 0;  ///< index of the texture image, -1 for none
+};
+
 /// One layer of a document, flat. Deleted elements of the host are left out, so vertex i here is the i-th one alive.
 struct Layer {
     Mesh mesh;
@@ -27,6 +33,7 @@ struct Layer {
     std::vector<std::uint8_t> selected_face;    ///< #F, 0 or 1; empty if nothing is selected
     std::vector<std::uint8_t> faux_edges;       ///< #F, bit k = edge (k, k+1) is faux; empty if none is
     std::vector<std::uint8_t> selected_edges;   ///< #F, bit k = edge (k, k+1) is selected; empty if none is
+    std::vector<Wedge> wedges;  ///< 3 #F, corner k of face f at 3 f + k; empty if not asked for or not there
 };
 
 /// A mesh made of vertices of another one; the host carries all attributes over by these indices.

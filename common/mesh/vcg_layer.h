@@ -12,10 +12,11 @@
 
 namespace multires {
 
-/// Which per-vertex attributes to_layer copies.
+/// Which attributes to_layer copies.
 struct AttributeRequest {
     bool color = false, quality = false, texcoord = false;  ///< left out where the mesh does not have it
-    std::vector<std::string> custom;                        ///< by name; see custom_attribute_names
+    std::vector<std::string> custom;                        ///< per vertex, by name; see custom_attribute_names
+    bool wedges = false;                                    ///< texture coordinates of the faces' corners
 };
 
 /// A layer, and where its elements live in the vcg mesh it came from. Good until that mesh is next changed.
@@ -30,6 +31,7 @@ struct LayerChanges {
     const Positions* positions = nullptr;                ///< #V by 3, finite
     const std::vector<double>* quality = nullptr;        ///< #V, becomes the vertex quality
     const std::vector<Attribute>* attributes = nullptr;  ///< kinds and names as to_layer gave them
+    const std::vector<Wedge>* wedges = nullptr;          ///< 3 #F, with the indices of their textures
 };
 
 /// Names of the custom per-vertex attributes that to_layer can give: float, double, Point3f and Point3d ones.
@@ -45,7 +47,7 @@ VcgLayer to_layer(const M& mesh, const AttributeRequest& request = {});
 
 /// Writes `changes` into the mesh `flat` was made from: all of them, or nothing if it throws. Nothing else of the mesh
 /// changes: bounding box and normals are the caller's to update. Colours are rounded to the nearest integer and
-/// clamped to 0..255, here and nowhere else; texture coordinates keep their texture index.
+/// clamped to 0..255, here and nowhere else; texture coordinates of vertices keep their texture index.
 /// @throws std::invalid_argument  for wrong sizes, attributes the mesh does not have, positions that are not finite
 ///                                in the mesh's precision
 /// Cost: linear.
@@ -154,6 +156,19 @@ void copy_attributes(const M& mesh, const AttributeRequest& request, VcgLayer& o
     }
 }
 
+/// Texture coordinates of all corners of the host's faces, 3 #F.
+template <class M>
+std::vector<Wedge> gather_wedges(const M& mesh, const std::vector<Index>& host_face) {
+    std::vector<Wedge> corners;
+    corners.reserve(3 * host_face.size());
+    for (Index f : host_face)
+        for (int k = 0; k < 3; ++k) {
+            const auto t = mesh.face[f].cWT(k);
+            corners.push_back({t.U(), t.V(), t.N()});
+        }
+    return corners;
+}
+
 /// Throws unless `mesh` can take the attribute.
 template <class M>
 void check_attribute(const M& mesh, const VcgLayer& flat, const Attribute& a) {
@@ -192,6 +207,21 @@ void check_changes(const M& mesh, const VcgLayer& flat, const LayerChanges& chan
         require(changes.quality->size() == n && vcg::tri::HasPerVertexQuality(mesh), "quality of wrong size");
     if (changes.attributes)
         for (const Attribute& a : *changes.attributes) check_attribute(mesh, flat, a);
+    if (changes.wedges)
+        require(changes.wedges->size() == 3 * flat.host_face.size() && vcg::tri::HasPerWedgeTexCoord(mesh),
+                "wedge texture coordinates of wrong size");
+}
+
+template <class M>
+void write_wedges(M& mesh, const VcgLayer& flat, const std::vector<Wedge>& wedges) noexcept {
+    const Wedge* w = wedges.data();
+    for (Index f : flat.host_face)
+        for (int k = 0; k < 3; ++k, ++w) {
+            auto& t = mesh.face[f].WT(k);
+            t.U() = static_cast<std::decay_t<decltype(t.U())>>(w->u);
+            t.V() = static_cast<std::decay_t<decltype(t.V())>>(w->v);
+            t.N() = static_cast<std::decay_t<decltype(t.N())>>(w->texture);
+        }
 }
 
 template <class M>
@@ -248,6 +278,8 @@ VcgLayer to_layer(const M& mesh, const AttributeRequest& request) {
     vcg_detail::copy_vertices(mesh, out, flat_vertex);
     vcg_detail::copy_faces(mesh, flat_vertex, out);
     vcg_detail::copy_attributes(mesh, request, out);
+    if (request.wedges && vcg::tri::HasPerWedgeTexCoord(mesh))
+        out.layer.wedges = vcg_detail::gather_wedges(mesh, out.host_face);
     return out;
 }
 
@@ -263,6 +295,7 @@ void write(M& mesh, const VcgLayer& flat, const LayerChanges& changes) {
     if (changes.quality) vcg_detail::write_quality(mesh, flat, *changes.quality);
     if (changes.attributes)
         for (const Attribute& a : *changes.attributes) vcg_detail::write_attribute(mesh, flat, a);
+    if (changes.wedges) vcg_detail::write_wedges(mesh, flat, *changes.wedges);
 }
 
 }  // namespace multires

@@ -1,14 +1,8 @@
 #pragma once
 
-#include "mesh/mesh.h"
+#include "mesh/layer.h"
 
 namespace multires {
-
-/// Texture coordinate of one corner of a face.
-struct Wedge {
-    double u = 0, v = 0;
-    int texture = 0;  ///< index of the texture image, -1 for none
-};
 
 /// The charts of a texture atlas, and the wedge a vertex should get when it takes over a corner of another face.
 ///

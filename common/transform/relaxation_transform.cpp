@@ -110,9 +110,20 @@ public:
         return f;
     }
 
+    Field subdivide(const Field& values, std::size_t level) const override {
+        Field f = values;
+        f.values.reserve(static_cast<std::size_t>(h_.size[0]) * f.width);
+        for (std::size_t k = level; k-- > 0;) {
+            const Coefficients::Detail zero{Field(h_.levels[k].odd.rows(), f.width),
+                                            Field(h_.levels[k].even.rows(), f.width)};
+            synthesise_level(k, zero, 0, f);
+        }
+        return f;
+    }
+
 private:
     bool framed(const Field& f) const {
-        return options_.scheme == Scheme::guskov && options_.local_frames && f.width >= 3;
+        return options_.scheme == Scheme::guskov && options_.local_frames && f.has_positions && f.width >= 3;
     }
 
     /// From values of the fine level to those of the coarse one; stores the details.

@@ -8,12 +8,14 @@ namespace multires {
 
 Field to_places(const Hierarchy& hierarchy, const Field& input) {
     Field out(input.rows(), input.width);
+    out.has_positions = input.has_positions;
     parallel_for(out.rows(), [&](Index p) { std::copy_n(input.row(hierarchy.order[p]), input.width, out.row(p)); });
     return out;
 }
 
 Field to_input(const Hierarchy& hierarchy, const Field& places) {
     Field out(places.rows(), places.width);
+    out.has_positions = places.has_positions;
     parallel_for(out.rows(), [&](Index p) { std::copy_n(places.row(p), places.width, out.row(hierarchy.order[p])); });
     return out;
 }

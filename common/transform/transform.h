@@ -11,6 +11,9 @@ namespace multires {
 struct Field {
     int width = 3;
     std::vector<double> values;  ///< #rows by width, row-major
+    /// True: channels 0..2 are the positions, and schemes with local frames turn their details with the surface.
+    /// False: every channel is a function on the surface (a colour, a quality), for which there is nothing to turn.
+    bool has_positions = true;
 
     Field() = default;
     Field(Index rows, int w) : width(w), values(static_cast<std::size_t>(rows) * w) {}
@@ -37,7 +40,7 @@ class Transform {
 public:
     virtual ~Transform() = default;
 
-    /// @param f  #V rows in order of places. If the scheme uses local frames, channels 0..2 are the positions.
+    /// @param f  #V rows in order of places; see Field::has_positions
     virtual Coefficients analyse(const Field& f) const = 0;
 
     /// @param gain  one factor per level for its details, finest first; empty: all 1
@@ -45,6 +48,11 @@ public:
     /// @returns     size[level] rows in order of places
     virtual Field synthesise(const Coefficients& coefficients, const std::vector<double>& gain = {},
                              std::size_t level = 0) const = 0;
+
+    /// The scheme's subdivision: synthesis to the input's level from the values of a level and details of zero.
+    /// @param values  size[level] rows in order of places
+    /// @param level   0 gives the values back, the number of levels starts at the base
+    virtual Field subdivide(const Field& values, std::size_t level) const = 0;
 };
 
 /// Copies values from order of input to order of places, and back.

@@ -102,7 +102,8 @@ int postcondition(const Filter& filter) {
         bits(plugin::vertex_quality, MeshModel::MM_VERTQUALITY) | bits(plugin::vertex_color, MeshModel::MM_VERTCOLOR) |
         bits(plugin::vertex_texcoord, MeshModel::MM_VERTTEXCOORD) |
         bits(plugin::wedge_texcoord, MeshModel::MM_WEDGTEXCOORD);
-    const bool lasting = filter.changes & (plugin::new_layer | plugin::vertex_texcoord | plugin::wedge_texcoord);
+    const bool lasting = filter.changes & (plugin::new_layer | plugin::vertex_texcoord | plugin::wedge_texcoord |
+                                           plugin::custom_attributes);
     return lasting && changed ? changed | MeshModel::MM_VERTNUMBER : changed;
 }
 

@@ -67,6 +67,7 @@ public:
             if (a.kind == AttributeKind::quality) needed |= MeshModel::MM_VERTQUALITY;
             if (a.kind == AttributeKind::texcoord) needed |= MeshModel::MM_VERTTEXCOORD;
         }
+        if (result.wedges) needed |= MeshModel::MM_WEDGTEXCOORD;
         added_ = needed & ~model.dataMask();
         model.updateDataMask(added_);
     }
@@ -88,6 +89,8 @@ VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model) {
     request.color = filter.reads & plugin::vertex_color && model.hasDataMask(MeshModel::MM_VERTCOLOR);
     request.quality = filter.reads & plugin::vertex_quality && model.hasDataMask(MeshModel::MM_VERTQUALITY);
     request.texcoord = filter.reads & plugin::vertex_texcoord && model.hasDataMask(MeshModel::MM_VERTTEXCOORD);
+    request.wedges = filter.reads & plugin::wedge_texcoord && model.hasDataMask(MeshModel::MM_WEDGTEXCOORD);
+    if (filter.reads & plugin::custom_attributes) request.custom = custom_attribute_names(model.cm);
     return to_layer(model.cm, request);
 }
 
@@ -105,6 +108,7 @@ void write_result(MeshDocument& document, MeshModel& model, const VcgLayer& flat
     changes.positions = result.positions ? &*result.positions : nullptr;
     changes.quality = result.quality ? &*result.quality : nullptr;
     changes.attributes = &result.attributes;
+    changes.wedges = result.wedges ? &*result.wedges : nullptr;
     write(model.cm, flat, changes);
 
     // From here on nothing can fail.

@@ -22,6 +22,9 @@ public:
         for (const std::string& n : names) list << QString::fromStdString(n);
         add<RichEnum>(name, hint, value, list);
     }
+    void text(const char* name, std::string& value, const Hint& hint) override {
+        add<RichString>(name, hint, QString::fromStdString(value));
+    }
 
     RichParameterList list;
 
@@ -106,6 +109,10 @@ void ParameterReader::choice(const char* name, int& value, const std::vector<std
         refuse(name, range, given);
     }
     value = given;
+}
+
+void ParameterReader::text(const char* name, std::string& value, const Hint& /*hint*/) {
+    if (list_.hasParameter(name)) value = list_.getString(name).toStdString();
 }
 
 }  // namespace multires::host

@@ -22,6 +22,7 @@ public:
     void real(const char* name, double& value, const plugin::Hint& hint) override;
     void slider(const char* name, double& value, const plugin::Hint& hint) override;
     void choice(const char* name, int& value, const std::vector<std::string>& names, const plugin::Hint& hint) override;
+    void text(const char* name, std::string& value, const plugin::Hint& hint) override;
 
 private:
     const RichParameterList& list_;

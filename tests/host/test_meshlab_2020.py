@@ -71,7 +71,7 @@ def script(path, name, parameters):
     """Writes a filter script. It names every parameter: Debian's meshlabserver aborts if two are missing."""
     root = ET.Element("FilterScript")
     element = ET.SubElement(root, "filter", name=name)
-    rich = {"boolean": "RichBool", "integer": "RichInt", "real": "RichFloat", "slider": "RichDynamicFloat", "choice": "RichEnum"}
+    rich = {"boolean": "RichBool", "integer": "RichInt", "real": "RichFloat", "slider": "RichDynamicFloat", "choice": "RichEnum", "text": "RichString"}
     for p in parameters:
         value = str(p["value"]).lower() if p["type"] == "boolean" else str(p["value"])
         param = ET.SubElement(element, "Param", type=rich[p["type"]], name=p["name"], value=value)

@@ -37,6 +37,9 @@ public:
     void slider(const char* name, double& value, const Hint& hint) override {
         begin(name, "slider") << value << range(hint) << "}";
     }
+    void text(const char* name, std::string& value, const Hint&) override {
+        begin(name, "text") << quoted(value) << "}";
+    }
     void choice(const char* name, int& value, const std::vector<std::string>& names, const Hint&) override {
         begin(name, "choice") << value << ", \"names\": [";
         for (std::size_t i = 0; i < names.size(); ++i) std::cout << (i ? ", " : "") << quoted(names[i]);

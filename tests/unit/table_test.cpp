@@ -39,6 +39,7 @@ public:
         EXPECT_GT(hint.least, -1e300) << name << ": a slider needs two ends";
         EXPECT_LT(hint.most, 1e300) << name << ": a slider needs two ends";
     }
+    void text(const char* name, std::string&, const Hint& hint) override { check(name, hint); }
     void choice(const char* name, int& value, const std::vector<std::string>& names, const Hint& hint) override {
         check(name, hint);
         EXPECT_GE(names.size(), 2u) << name;
@@ -96,10 +97,10 @@ TEST_P(TableRow, InfoEndsWithACitation) {
 }
 
 TEST_P(TableRow, MasksHoldPartsThatMakeSense) {
-    constexpr std::uint32_t all = (new_layer << 1) - 1;
+    constexpr std::uint32_t all = (custom_attributes << 1) - 1;
     constexpr std::uint32_t attributes = vertex_quality | vertex_color | vertex_texcoord | wedge_texcoord;
     EXPECT_EQ(filter().needs & ~(faces | attributes), 0u);
-    EXPECT_EQ(filter().reads & ~attributes, 0u);
+    EXPECT_EQ(filter().reads & ~(attributes | custom_attributes), 0u);
     EXPECT_EQ(filter().changes & ~all, 0u);
     EXPECT_TRUE(filter().parameters && filter().run);
 }

@@ -201,6 +201,37 @@ TYPED_TEST(VcgConversion, CustomAttributesByName) {
     EXPECT_THROW(to_layer(this->mesh, request), InputError);
 }
 
+TYPED_TEST(VcgConversion, WedgesAreReadAndWrittenExactly) {
+    int i = 0;
+    for (auto& f : this->mesh.face)
+        for (int k = 0; k < 3; ++k, ++i) {
+            f.WT(k).U() = 0.1F * static_cast<float>(i);
+            f.WT(k).V() = -0.3F;
+            f.WT(k).N() = static_cast<short>(i % 2);
+        }
+    Allocator<TypeParam>::DeleteFace(this->mesh, this->mesh.face[0]);
+    AttributeRequest request;
+    EXPECT_TRUE(to_layer(this->mesh, request).layer.wedges.empty());
+    request.wedges = true;
+    const VcgLayer flat = to_layer(this->mesh, request);
+    ASSERT_EQ(flat.layer.wedges.size(), 9u);
+    EXPECT_EQ(flat.layer.wedges[4].u, 0.1F * 7);
+    EXPECT_EQ(flat.layer.wedges[4].texture, 1);
+
+    std::vector<Wedge> wedges = flat.layer.wedges;
+    wedges[4] = {0.25, 0.75, 0};
+    LayerChanges changes;
+    changes.wedges = &wedges;
+    write(this->mesh, flat, changes);
+    EXPECT_EQ(this->mesh.face[2].WT(1).U(), 0.25F);
+    EXPECT_EQ(this->mesh.face[2].WT(1).V(), 0.75F);
+    EXPECT_EQ(this->mesh.face[2].WT(1).N(), 0);
+    EXPECT_EQ(this->mesh.face[2].WT(2).U(), 0.1F * 8);
+    EXPECT_EQ(this->mesh.face[0].WT(1).U(), 0.1F);
+    wedges.pop_back();
+    EXPECT_THROW(write(this->mesh, flat, changes), std::invalid_argument);
+}
+
 TYPED_TEST(VcgConversion, WriteIsAllOrNothing) {
     const VcgLayer flat = to_layer(this->mesh);
     const auto before = this->mesh.vert[1].P();
