@@ -52,16 +52,28 @@ if(NOT MeshLab_FOUND OR TARGET MeshLab::Common)
   return()
 endif()
 
-if(MESHLAB_API EQUAL 2020)
-  # Next to the program only: <prefix>/lib/<arch>/meshlab/plugins.
-  include(GNUInstallDirs)
-  set(MESHLAB_PLUGIN_DIR "${CMAKE_INSTALL_LIBDIR}/meshlab/plugins")
-elseif(MESHLAB_COMMON_LIBRARY MATCHES "pymeshlab")
+# A double build calls itself "2025.07d", and a plugin must say the same.
+set(meshlab_own_version "${MeshLab_VERSION}")
+set(meshlab_precision fp)
+if(MESHLAB_SCALAR STREQUAL "double")
+  string(APPEND meshlab_own_version "d")
+  set(meshlab_precision dp)
+endif()
+
+if(MESHLAB_COMMON_LIBRARY MATCHES "pymeshlab")
   # load_plugin() takes any path: straight into the prefix.
   set(MESHLAB_PLUGIN_DIR ".")
+elseif(MESHLAB_API EQUAL 2020)
+  # Beside its library, as in /usr/lib/x86_64-linux-gnu/meshlab/plugins.
+  set(MESHLAB_PLUGIN_DIR "lib/meshlab/plugins")
+  if(MESHLAB_COMMON_LIBRARY MATCHES "/(lib/.*)/[^/]*$")
+    set(MESHLAB_PLUGIN_DIR "${CMAKE_MATCH_1}/plugins")
+  endif()
 else()
   # The GUI's folder for the user's own plugins, with the prefix at ~/.local.
-  set(MESHLAB_PLUGIN_DIR "share/VCG/MeshLab/MeshLabExtraPlugins/${MeshLab_VERSION}")
+  math(EXPR bits "8 * ${CMAKE_SIZEOF_VOID_P}")
+  set(MESHLAB_PLUGIN_DIR
+    "share/VCG/MeshLab_${bits}bit_${meshlab_precision}/MeshLabExtraPlugins/${meshlab_own_version}")
 endif()
 
 find_package(Qt5 5.9 REQUIRED COMPONENTS Core Gui Widgets OpenGL Xml Network)
@@ -73,15 +85,10 @@ add_library(MeshLab::vcglib INTERFACE IMPORTED)
 target_include_directories(MeshLab::vcglib SYSTEM INTERFACE "${MESHLAB_VCGLIB_DIR}")
 target_link_libraries(MeshLab::vcglib INTERFACE Eigen3::Eigen)
 
-# A double build calls itself "2025.07d", and a plugin must say the same.
-set(meshlab_define_version "${MeshLab_VERSION}")
-if(MESHLAB_SCALAR STREQUAL "double")
-  string(APPEND meshlab_define_version "d")
-endif()
 add_library(MeshLab::Common INTERFACE IMPORTED)
 target_include_directories(MeshLab::Common SYSTEM INTERFACE "${MESHLAB_SOURCE_DIR}/src" ${GLEW_INCLUDE_DIRS})
 target_compile_definitions(MeshLab::Common INTERFACE
-  MESHLAB_VERSION=${meshlab_define_version} MESHLAB_SCALAR=${MESHLAB_SCALAR})
+  MESHLAB_VERSION=${meshlab_own_version} MESHLAB_SCALAR=${MESHLAB_SCALAR})
 target_link_libraries(MeshLab::Common INTERFACE
   MeshLab::vcglib Qt5::Core Qt5::Gui Qt5::Widgets Qt5::OpenGL Qt5::Xml Qt5::Network)
 if(MESHLAB_COMMON_LIBRARY)
