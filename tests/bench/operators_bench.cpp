@@ -5,8 +5,8 @@
 #include "operators/relaxation.h"
 #include "shapes.h"
 
-#include <benchmark/benchmark.h>
 #include "parallel/parallel.h"
+#include <benchmark/benchmark.h>
 
 namespace {
 

@@ -3,8 +3,8 @@
 #include "random.h"
 #include "shapes.h"
 
-#include <gtest/gtest.h>
 #include "parallel/parallel.h"
+#include <gtest/gtest.h>
 
 #include <cmath>
 
