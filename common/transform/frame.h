@@ -2,6 +2,7 @@
 
 #include "mesh/mesh.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace multires {
@@ -9,13 +10,14 @@ namespace multires {
 /// Orthonormal axes at a vertex of a surface that turn with it: tangent, bitangent, normal (Guskov et al. 1999, 3.2).
 struct Frame {
     Vec3 t{1, 0, 0}, b{0, 1, 0}, n{0, 0, 1};
+    double size = 0;  ///< how far points of the ring may move before the frame turns by about a radian; 0: world axes
 
     Vec3 to_local(const Vec3& v) const { return {t.dot(v), b.dot(v), n.dot(v)}; }
     Vec3 to_world(const Vec3& v) const { return t * v.x() + b * v.y() + n * v.z(); }
 };
 
-/// Frame of a 1-ring: normal = area vector of its polygon, tangent = from the middle entry to the first. World axes
-/// where the ring is so thin that rounding would turn the frame: inversion must stay exact.
+/// Frame of a 1-ring: normal = area vector of its polygon, tangent = from the middle entry to the first. World axes if
+/// the ring has no area.
 /// @param at  gives the position of a vertex
 template <class At>
 Frame ring_frame(const Index* ring, Index size, const At& at) {
@@ -31,10 +33,11 @@ Frame ring_frame(const Index* ring, Index size, const At& at) {
         last = d;
     }
     const double size2 = area.norm();
-    if (!(size2 > 1e-3 * extent)) return f;
+    if (!(size2 > 1e-12 * extent)) return f;
     const Vec3 n = area / size2, across = origin - at(ring[size / 2]), t = across - n * n.dot(across);
     const double length = t.norm();
-    if (!(length * length > 1e-3 * across.squaredNorm())) return f;
+    if (!(length * length > 1e-12 * across.squaredNorm())) return f;
+    f.size = std::min(size2 / std::sqrt(extent), length);
     f.n = n;
     f.t = t / length;
     f.b = f.n.cross(f.t);

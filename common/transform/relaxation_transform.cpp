@@ -114,8 +114,8 @@ public:
         Field f = values;
         f.values.reserve(static_cast<std::size_t>(h_.size[0]) * f.width);
         for (std::size_t k = level; k-- > 0;) {
-            const Coefficients::Detail zero{Field(h_.levels[k].odd.rows(), f.width),
-                                            Field(h_.levels[k].even.rows(), f.width)};
+            const Coefficients::Detail zero{
+                Field(h_.levels[k].odd.rows(), f.width), Field(h_.levels[k].even.rows(), f.width), {}, {}};
             synthesise_level(k, zero, 0, f);
         }
         return f;
@@ -139,19 +139,21 @@ private:
                 for (int i = 0; i < width; ++i) c[i] += options_.presmooth * (relaxed.row(r)[i] - c[i]);
             });
         }
+        const bool frames = framed(f);
+        if (frames) d.odd_framed.resize(level.odd.rows()), d.even_framed.resize(level.even.rows());
         d.odd = Field(level.odd.rows(), width);
         predict_odd(k, g, [&](Index r, const double* predicted, const Frame* frame) {
             const double* value = f.row(level.coarse + r);
-            store(value, predicted, frame, width, d.odd.row(r));
+            store(value, predicted, frame, width, d.odd.row(r), d.odd_framed, r);
             if (options_.scheme == Scheme::guskov) std::copy_n(predicted, width, g.row(level.coarse + r));
         });
         relax_rows(even_[k], g, relaxed, [&](Index r) { return level.even.vertex(r); });
         d.even = Field(level.even.rows(), width);
-        const bool frames = framed(f);
         parallel_for(level.even.rows(), [&](Index r) {
             Frame frame;
             if (frames) frame = frame_of(level.even, r, g);
-            store(f.row(level.even.vertex(r)), relaxed.row(r), frames ? &frame : nullptr, width, d.even.row(r));
+            store(f.row(level.even.vertex(r)), relaxed.row(r), frames ? &frame : nullptr, width, d.even.row(r),
+                  d.even_framed, r);
         });
         g.values.resize(static_cast<std::size_t>(level.coarse) * width);
         f = std::move(g);
@@ -170,7 +172,7 @@ private:
             double value[max_width];
             std::vector<double> large(width > max_width ? width : 0);
             double* to = width > max_width ? large.data() : value;
-            restore(d.odd.row(r), predicted, frame, width, gain, to);
+            restore(d.odd.row(r), predicted, frame && is_framed(d.odd_framed, r) ? frame : nullptr, width, gain, to);
             std::copy_n(guskov ? predicted : to, width, at);
             if (guskov) std::copy_n(to, width, odd.row(r));
         });
@@ -181,7 +183,7 @@ private:
             parallel_for(level.even.rows(), [&](Index r) {
                 const Frame frame = frame_of(level.even, r, f);
                 double* to = relaxed.row(r);
-                restore(d.even.row(r), to, &frame, width, gain, to);
+                restore(d.even.row(r), to, is_framed(d.even_framed, r) ? &frame : nullptr, width, gain, to);
             });
         }
         parallel_for(level.even.rows(), [&](Index r) {
@@ -242,10 +244,18 @@ private:
         });
     }
 
-    static void store(const double* value, const double* predicted, const Frame* frame, int width, double* detail) {
+    static bool is_framed(const std::vector<std::uint8_t>& framed, Index r) { return !framed.empty() && framed[r]; }
+
+    /// A detail longer than its ring is wide stays in world axes: what rounding turns the frame by would move the
+    /// vertex by more than it moved the ring, and grow from level to level.
+    static void store(const double* value, const double* predicted, const Frame* frame, int width, double* detail,
+                      std::vector<std::uint8_t>& framed, Index r) {
         for (int c = 0; c < width; ++c) detail[c] = value[c] - predicted[c];
         if (!frame) return;
-        const Vec3 local = frame->to_local(Vec3(detail[0], detail[1], detail[2]));
+        const Vec3 world(detail[0], detail[1], detail[2]);
+        framed[r] = world.squaredNorm() <= detail_limit * detail_limit * frame->size * frame->size;
+        if (!framed[r]) return;
+        const Vec3 local = frame->to_local(world);
         std::copy_n(local.data(), 3, detail);
     }
 
@@ -260,6 +270,7 @@ private:
     }
 
     static constexpr int max_width = 16;
+    static constexpr double detail_limit = 0.5;  ///< in sizes of the frame
 
     const Hierarchy& h_;
     RelaxationTransformOptions options_;

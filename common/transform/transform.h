@@ -27,6 +27,8 @@ struct Coefficients {
     struct Detail {
         Field odd;   ///< aligned with Level::odd
         Field even;  ///< aligned with Level::even; no rows in critically sampled schemes
+        /// 1 for rows whose channels 0..2 are in a local frame; empty if none is.
+        std::vector<std::uint8_t> odd_framed, even_framed;
     };
     Field base;                  ///< at places 0..size.back()-1
     std::vector<Detail> detail;  ///< details[k] belongs to levels[k]; 0 is the finest
