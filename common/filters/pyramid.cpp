@@ -35,6 +35,7 @@ HierarchyOptions hierarchy_options(const PyramidOptions& o) {
     h.base_vertices = o.base_vertices;
     h.length_weight = o.length_weight;
     h.normal_limit_degrees = o.normal_limit;
+    h.seed = o.seed;
     h.flaps = uses_flaps(o.op);
     return h;
 }
@@ -178,6 +179,7 @@ KeptPyramid::Hash content_hash(const Layer& layer, const PyramidOptions& o) {
                               o.normal_limit,
                               static_cast<double>(o.features),
                               o.features == Features::angle ? o.feature_angle : 0,
+                              static_cast<double>(o.seed),
                               static_cast<double>(layer.mesh.positions.size())};
     XXH3_state_t state;
     XXH3_128bits_reset(&state);

@@ -27,6 +27,7 @@ struct PyramidOptions {
     int base_vertices = 100;     ///< >= 4
     double length_weight = 0.1;  ///< >= 0, see HierarchyOptions
     double normal_limit = 60;    ///< degrees, in (0, 180]
+    int seed = 0;                    ///< 0: cheapest collapses first; others vary the order, for averaging
     Features features = Features::none;
     double feature_angle = 40;  ///< degrees, in (0, 180), for Features::angle
 };

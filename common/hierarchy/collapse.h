@@ -60,7 +60,7 @@ private:
 };
 
 /// Quadric of a vertex: its faces, and for a boundary vertex planes that stand on the boundary edges.
-inline Quadric vertex_quadric(Index v, const Ring& ring, const Positions& p) {
+inline Quadric vertex_quadric(Index v, const Ring& ring, const Positions& p, double boundary_weight = 1) {
     Quadric q;
     if (!ring.regular()) return q;
     const Index triangles = ring.closed() ? ring.size : ring.size - 1;
@@ -70,9 +70,10 @@ inline Quadric vertex_quadric(Index v, const Ring& ring, const Positions& p) {
         if (length > 0) q.add_plane(n, length);
         const bool at_start = !ring.closed() && j == 0, at_end = !ring.closed() && j == triangles - 1;
         for (const Vec3& edge : {at_start ? a : Vec3(0, 0, 0), at_end ? b : Vec3(0, 0, 0)}) {
-            const Vec3 side = edge.cross(n);  // |side| = |edge| |n|; weight the plane by |edge|^2
+            const Vec3 side = edge.cross(n);  // |side| = |edge| |n|; the plane counts as |edge|^2
             const double norm = side.norm();
-            if (norm > 0) q.add_plane(side * (edge.squaredNorm() / norm), edge.squaredNorm());
+            const double weight = boundary_weight * edge.squaredNorm();
+            if (norm > 0) q.add_plane(side * (weight / norm), weight);
         }
     }
     return q;
@@ -82,6 +83,15 @@ inline Quadric vertex_quadric(Index v, const Ring& ring, const Positions& p) {
 inline double cost(const Quadric& qv, const Quadric& qu, const Vec3& d, double length_weight) {
     const double quadric = qv.at(d) + qu.c;
     return (quadric > 0 ? quadric : 0) + length_weight * qv.weight() * d.squaredNorm();
+}
+
+/// Factor in [0.5, 1.5) that varies the order of collapses with the seed; 1 for seed 0.
+inline double jitter(Index v, int seed) {
+    if (seed == 0) return 1;
+    std::uint64_t z = (static_cast<std::uint64_t>(v) << 20 ^ static_cast<std::uint64_t>(seed)) * 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return 0.5 + static_cast<double>(z >> 11) * 0x1p-53;
 }
 
 /// Limits on the faces a collapse leaves behind.

@@ -21,13 +21,18 @@ enum class Grouping {
 /// What to build a hierarchy for. All lengths follow the mesh: nothing here depends on its scale.
 struct HierarchyOptions {
     Grouping grouping = Grouping::independent_sets;
-    int sets_per_level = 1;            ///< >= 1; each set removes 22 to 25 % of the vertices
-    double level_ratio = 0;            ///< in [0, 1): a level keeps this share of its vertices; 0: one vertex per level
-    Index base_vertices = 100;         ///< stop here, or earlier if no collapse is allowed any more
+    int sets_per_level = 1;  ///< >= 1; each set removes 22 to 25 % of the vertices
+    double set_share = 1;  ///< independent sets: each takes only from this cheapest share of its candidates, in (0, 1]
+    bool memoryless = false;     ///< independent sets: costs from the faces as they are, not summed since the input
+                                 ///< (Lindstrom and Turk 1998): less error for the same number of vertices
+    double boundary_weight = 1;  ///< independent sets, > 0: of the planes that stand on the boundary
+    double level_ratio = 0;      ///< in [0, 1): a level keeps this share of its vertices; 0: one vertex per level
+    Index base_vertices = 100;   ///< stop here, or earlier if no collapse is allowed any more
     double normal_limit_degrees = 60;  ///< a collapse may turn no face normal by more than this, in (0, 180]
     /// Weight of the edge-length term beside the quadric: cost = (Q_v + Q_u)(p_u) + weight * area_v * |p_v - p_u|^2.
     /// 0: quadric only (Roy); larger values keep vertices of a level evenly spaced, which sharpens bands.
     double length_weight = 0.1;
+    int seed = 0;       ///< other than 0: costs vary at random by up to half, for another hierarchy
     bool flaps = true;  ///< store Rings::flap, for operators that need the 1-ring with flaps
 };
 

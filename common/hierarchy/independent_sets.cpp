@@ -53,13 +53,14 @@ struct Candidates {
 
 constexpr std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
 
-std::vector<Quadric> vertex_quadrics(const Rings& rings, const Positions& positions) {
+std::vector<Quadric> vertex_quadrics(const Rings& rings, const Positions& positions, double boundary_weight) {
     std::vector<Quadric> q(rings.rows());
-    parallel_for(rings.rows(), [&](Index i) { q[i] = collapse::vertex_quadric(i, ring_of(rings, i), positions); });
+    parallel_for(rings.rows(),
+                 [&](Index i) { q[i] = collapse::vertex_quadric(i, ring_of(rings, i), positions, boundary_weight); });
     return q;
 }
 
-Candidates rank_vertices(const State& s, double length_weight) {
+Candidates rank_vertices(const State& s, double length_weight, int seed) {
     const Index n = s.rings.rows();
     Candidates c;
     c.key.resize(n);
@@ -77,7 +78,8 @@ Candidates rank_vertices(const State& s, double length_weight) {
                 collapse::cost(s.quadric[v], s.quadric[u], s.positions[u] - s.positions[v], length_weight);
             if (cost < least) least = cost, c.target[v] = j;
         }
-        if (least < std::numeric_limits<double>::infinity()) c.key[v] = radix_key(static_cast<float>(least));
+        if (least < std::numeric_limits<double>::infinity())
+            c.key[v] = radix_key(static_cast<float>(least * collapse::jitter(v, seed)));
     });
     return c;
 }
@@ -87,16 +89,18 @@ Candidates rank_vertices(const State& s, double length_weight) {
 class Selection {
 public:
     Selection(const State& s, const HierarchyOptions& options)
-        : s_(s), length_weight_(options.length_weight), limits_{std::cos(options.normal_limit_degrees *
-                                                                         3.14159265358979323846 / 180)},
+        : s_(s), length_weight_(options.length_weight),
+          share_(options.set_share), limits_{std::cos(options.normal_limit_degrees * 3.14159265358979323846 / 180)},
           edges_(s.rings.rows()), degree_(s.rings.rows()), locked_(s.rings.rows(), 0), parent_(s.rings.rows(), -1) {
         for (Index i = 0; i < s.rings.rows(); ++i) degree_[i] = s.rings.size(i);
     }
 
     void run(const Candidates& candidates, Index most) {
-        for (const Index v : sorted_by_key(candidates.key, never)) {
-            if (odd_ >= most) break;
-            if (!locked_[v]) try_vertex(v, candidates.target[v]);
+        const std::vector<Index> sorted = sorted_by_key(candidates.key, never);
+        const std::size_t last = static_cast<std::size_t>(std::ceil(share_ * static_cast<double>(sorted.size())));
+        for (std::size_t i = 0; i < sorted.size(); ++i) {
+            if (odd_ >= most || (i >= last && odd_ > 0)) break;
+            if (!locked_[sorted[i]]) try_vertex(sorted[i], candidates.target[sorted[i]]);
         }
     }
 
@@ -146,7 +150,7 @@ private:
     }
 
     const State& s_;
-    double length_weight_;
+    double length_weight_, share_;
     collapse::FaceLimits limits_;
     NewEdges edges_;
     std::vector<Index> degree_;
@@ -157,7 +161,7 @@ private:
 };
 
 /// The state after a step: even vertices only, renumbered in their order.
-State next_state(const State& s, const Step& step, const std::vector<Index>& degree) {
+State next_state(const State& s, const Step& step, const std::vector<Index>& degree, const HierarchyOptions& options) {
     const Index n = s.rings.rows(), m = n - step.odd;
     State t;
     t.rings.kind.resize(m);
@@ -181,6 +185,7 @@ State next_state(const State& s, const Step& step, const std::vector<Index>& deg
             if (!t.rings.feature.empty()) t.rings.feature[at] = mark;
             t.rings.neighbor[at++] = step.rank[x];
         });
+        if (options.memoryless) return;
         Quadric q = s.quadric[i];
         for (Index j = 0; j < old.size; ++j) {
             const Index x = old.vertex[j];
@@ -188,6 +193,7 @@ State next_state(const State& s, const Step& step, const std::vector<Index>& deg
         }
         t.quadric[to] = q;
     });
+    if (options.memoryless) t.quadric = vertex_quadrics(t.rings, t.positions, options.boundary_weight);
     return t;
 }
 
@@ -197,7 +203,7 @@ std::vector<Step> independent_sets(Rings rings, Positions positions, const Hiera
                                    const Tick& tick) {
     std::vector<Step> steps;
     State s;
-    s.quadric = vertex_quadrics(rings, positions);
+    s.quadric = vertex_quadrics(rings, positions, options.boundary_weight);
     s.rings = std::move(rings);
     s.positions = std::move(positions);
     const double whole = static_cast<double>(s.rings.rows());
@@ -210,7 +216,7 @@ std::vector<Step> independent_sets(Rings rings, Positions positions, const Hiera
         std::vector<Index> degree;
         if (n > stop) {
             Selection selection(s, options);
-            selection.run(rank_vertices(s, options.length_weight), n - stop);
+            selection.run(rank_vertices(s, options.length_weight, options.seed), n - stop);
             step.odd = selection.odd();
             step.parent = std::move(selection.parent());
             degree = selection.degree();
@@ -221,7 +227,7 @@ std::vector<Step> independent_sets(Rings rings, Positions positions, const Hiera
         }
         step.rank.resize(n);
         for (Index i = 0, even = 0, odd = 0; i < n; ++i) step.rank[i] = step.parent[i] < 0 ? even++ : odd++;
-        State t = next_state(s, step, degree);
+        State t = next_state(s, step, degree, options);
         step.rings = std::move(s.rings);
         steps.push_back(std::move(step));
         s = std::move(t);

@@ -84,7 +84,7 @@ private:
                 const double c = cost(v, r.vertex[j]);
                 if (least < 0 || c < least) least = c;
             }
-        if (least >= 0) queue_.push({least, v, ++stamp_[v]});
+        if (least >= 0) queue_.push({least * collapse::jitter(v, options_.seed), v, ++stamp_[v]});
     }
 
     /// Entry of the cheapest target that is allowed, -1 if none is.

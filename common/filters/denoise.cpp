@@ -1,0 +1,138 @@
+#include "filters/denoise.h"
+
+#include "filters/band.h"
+#include "filters/denoise_threshold.h"
+#include "measure/measure.h"
+#include "mesh/adjacency.h"
+#include "mesh/validation.h"
+#include "normals/normal_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+void require(bool ok, const char* message) {
+    if (!ok) throw InputError(message);
+}
+
+void check(const DenoiseOptions& o) {
+    require(std::isfinite(o.threshold) && o.threshold >= 0, "threshold must be a number, 0 or more");
+    require(std::isfinite(o.strength) && o.strength > 0, "strength must be more than 0");
+    require(o.finest_level >= 0, "finest_level must be 0 or more");
+    require(o.coarsest_level > o.finest_level, "coarsest_level must be more than finest_level");
+    require(o.cycle_spins >= 1 && o.cycle_spins <= 64, "cycle_spins must be between 1 and 64");
+}
+
+/// How much each vertex is trusted to be without noise, in [0, 1]; empty if not asked for.
+std::vector<double> confidence_of(const Layer& layer, const DenoiseOptions& o) {
+    if (!o.confidence) return {};
+    Region region;
+    region.quality_mask = true;
+    return region_weights(layer, region);
+}
+
+/// The difference of neighbouring normals that noise of this deviation makes, roughly: measured as 1.55 times the
+/// deviation in edge lengths where noise is weak; it saturates where it is strong.
+double normal_noise(double deviation, double edge) { return edge > 0 ? std::min(0.6, 1.55 * deviation / edge) : 0; }
+
+Positions by_normal_field(const Layer& layer, const DenoiseOptions& o, double given, const Session& session,
+                          Report& report) {
+    const Mesh& mesh = layer.mesh;
+    session.progress.report(0.02, "Finding neighbouring faces");
+    const Incidence at = vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()));
+    const FaceGraph graph = face_graph(mesh.faces, at);
+    NormalFieldOptions options;
+    options.strength = o.strength;
+    if (o.unit != ThresholdUnit::automatic)
+        options.noise = normal_noise(given, mean_edge_length(mesh.faces, mesh.positions));
+    NormalFieldStats stats;
+    const Progress smoothing = session.progress.part(0.1, 0.85);
+    std::vector<Vec3> normals = denoise_normals(mesh.faces, mesh.positions, graph, options, stats,
+                                                [&](double f) { smoothing.report(f, "Denoising the normals"); });
+    session.progress.report(0.85, "Fitting the vertices");
+    constexpr int steps = 8;  // more would follow the normals further and lose volume
+    Positions after = fit_vertices(mesh.faces, mesh.positions, at, normals, steps);
+    report.add("normal_noise", stats.noise);
+    report.add("normal_noise_after", stats.left);
+    report.add("detail_per_level", stats.detail_rms);
+    report.add("noise_per_level", stats.noise_rms);
+    report.add("share_removed", stats.share_removed);
+    return after;
+}
+
+/// Shifts the vertices along their normals until the volume is what it was; two Newton steps.
+void restore_volume(const Mesh& before, const std::vector<double>& weights, Positions& after) {
+    const Vec3 apex = bounding_box(before.positions).center();
+    const double wanted = surface(before.faces, before.positions, apex).volume;
+    for (int step = 0; step < 2; ++step) {
+        const Surface now = surface(before.faces, after, apex);
+        if (!(now.area > 0)) return;
+        std::vector<Vec3> normal(after.size(), Vec3::Zero());
+        for (const Face& f : before.faces) {
+            const Vec3 n = (after[f[1]] - after[f[0]]).cross(after[f[2]] - after[f[0]]);
+            for (const Index v : f) normal[v] += n;
+        }
+        const double shift = (wanted - now.volume) / now.area;
+        for (std::size_t i = 0; i < after.size(); ++i) {
+            const double length = normal[i].norm();
+            if (length > 0) after[i] += normal[i] * (shift / length * (weights.empty() ? 1 : weights[i]));
+        }
+    }
+}
+
+}  // namespace
+
+double noise_deviation(const Mesh& mesh) {
+    Rings rings = vertex_rings(mesh);
+    RelaxationOptions options;
+    options.op = Operator::second_difference_flaps;
+    find_flaps(rings);
+    const Rows rows = relaxation(rings, mesh.positions, options);
+    const Positions smooth = relaxed(rings, rows, mesh.positions);
+    std::vector<double> residual;
+    for (Index r = 0; r < rings.rows(); ++r) {
+        if (rings.kind[r] != RingKind::closed) continue;
+        double gain = 1;  // of white noise through I - R
+        for (Index k = rows.offset[r]; k < rows.offset[r + 1]; ++k) gain += rows.weight[k] * rows.weight[k];
+        Vec3 normal(0, 0, 0);
+        const Index* ring = rings.begin(r);
+        const Vec3 first = mesh.positions[ring[0]];
+        for (Index j = 1; j + 1 < rings.size(r); ++j)
+            normal += (mesh.positions[ring[j]] - first).cross(mesh.positions[ring[j + 1]] - first);
+        const double length = normal.norm();
+        if (length > 0) residual.push_back((mesh.positions[r] - smooth[r]).dot(normal) / (length * std::sqrt(gain)));
+    }
+    return deviation_by_median(residual);
+}
+
+Result denoise(const Layer& layer, const DenoiseOptions& options, Session& session) {
+    require_usable(layer.mesh);
+    check(options);
+    std::vector<double> weights = region_weights(layer, options.region);
+    const std::vector<double> confidence = confidence_of(layer, options);
+
+    Result result;
+    const double deviation = noise_deviation(layer.mesh);
+    result.report.add("noise", deviation, "mesh units");
+    const double given =
+        options.unit == ThresholdUnit::percent ? options.threshold / 100 * box_diagonal(layer) : options.threshold;
+    Positions after;
+    if (options.method == DenoiseMethod::normal_field) {
+        after = by_normal_field(layer, options, given, session, result.report);
+        // Here confidence scales the movement; thresholding takes it as a local threshold.
+        if (!confidence.empty() && weights.empty()) weights.assign(confidence.size(), 1);
+        for (std::size_t i = 0; i < confidence.size(); ++i) weights[i] *= 1 - confidence[i];
+    } else {
+        after = by_threshold(layer, options, given, deviation, confidence, session, result.report);
+    }
+    blend(layer.mesh.positions, weights, after);
+    if (options.keep_volume) restore_volume(layer.mesh, weights, after);
+    session.progress.report(0.97, "Measuring the change");
+    report_change(layer, after, result.report);
+    result.positions = std::move(after);
+    return result;
+}
+
+}  // namespace multires

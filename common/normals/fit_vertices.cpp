@@ -1,0 +1,65 @@
+#include "normals/normal_field.h"
+
+#include "parallel/parallel.h"
+
+#include <cmath>
+
+namespace multires {
+namespace {
+
+/// A face counts as folded if it is turned from its normal by more than 60 degrees, and as bad if its height is less
+/// than about a tenth of an equilateral one's.
+bool needs_room(const Face& f, const Positions& p, const Vec3& normal) {
+    const Vec3 ab = p[f[1]] - p[f[0]], ac = p[f[2]] - p[f[0]], bc = p[f[2]] - p[f[1]];
+    const Vec3 n = ab.cross(ac);
+    const double size = n.norm();
+    return n.dot(normal) < 0.5 * size || size < 0.0577 * (ab.squaredNorm() + ac.squaredNorm() + bc.squaredNorm());
+}
+
+/// Half of the way to the middle of the faces around, within the surface.
+Vec3 within_surface(const Vec3& to_middle, const Vec3& normal_sum) {
+    const double length = normal_sum.norm();
+    if (!(length > 0)) return Vec3::Zero();
+    const Vec3 n = normal_sum / length;
+    return 0.5 * (to_middle - n * n.dot(to_middle));
+}
+
+}  // namespace
+
+Positions fit_vertices(const Faces& faces, const Positions& positions, const Incidence& at,
+                       const std::vector<Vec3>& normals, int steps) {
+    const Index vertices = static_cast<Index>(positions.size()), count = static_cast<Index>(faces.size());
+    Positions p = positions, next(positions.size()), centroid(faces.size());
+    std::vector<std::uint8_t> crowded(faces.size());
+    for (int step = 0; step < steps; ++step) {
+        parallel_for(count, [&](Index f) {
+            centroid[f] = (p[faces[f][0]] + p[faces[f][1]] + p[faces[f][2]]) / 3;
+            crowded[f] = needs_room(faces[f], p, normals[f]);
+        });
+        parallel_for(vertices, [&](Index v) {
+            Vec3 along(0, 0, 0), middle(0, 0, 0), normal_sum(0, 0, 0);
+            Index members = 0, unpaired = 0;
+            bool make_room = false;
+            for (Index k = at.offset[v]; k < at.offset[v + 1]; ++k) {
+                const Index f = at.face[k];
+                if (normals[f].isZero()) continue;
+                for (const Index w : faces[f]) unpaired ^= w == v ? 0 : w;
+                const Vec3 to = centroid[f] - p[v];
+                along += normals[f] * normals[f].dot(to);
+                middle += to;
+                normal_sum += normals[f];
+                make_room |= crowded[f] != 0;
+                ++members;
+            }
+            next[v] = p[v];
+            if (members == 0) return;
+            next[v] += along / members;
+            // Inside, every neighbour is met twice and cancels out; on the boundary, sliding would eat into the mesh.
+            if (make_room && unpaired == 0) next[v] += within_surface(middle / members - along / members, normal_sum);
+        });
+        p.swap(next);
+    }
+    return p;
+}
+
+}  // namespace multires

@@ -1,0 +1,100 @@
+#include "bindings.h"
+
+#include "filters/denoise.h"
+
+// Filters that remove noise and keep shape.
+
+namespace multires::plugin {
+namespace {
+
+DenoiseOptions denoise_defaults(const Layer* layer) {
+    DenoiseOptions o;
+    o.region.selected = has_selection(layer);
+    return o;
+}
+
+void bind_threshold(Parameters& p, DenoiseOptions& o) {
+    const char* group = "Threshold";
+    p.choice(
+        "threshold_unit", o.unit, {"automatic", "mesh units", "percent"},
+        {"Threshold",
+         "Automatic: from the noise found in the mesh. Mesh units, or percent of the diagonal of the bounding box: "
+         "the value below.",
+         0, 2, false, group});
+    p.real("threshold", o.threshold,
+           {"Threshold value",
+            "Size of the noise if the threshold is not automatic: its standard deviation for the normal field, the "
+            "length up to which details are dropped for the others.",
+            0, 1e30, false, group});
+    p.slider("strength", o.strength,
+             {"Strength",
+              "Factor for the automatic threshold: 1 removes the noise found, 2 takes twice as much for noise.", 0.05,
+              4, false, group});
+}
+
+void bind_denoise(Parameters& p, DenoiseOptions& o) {
+    p.choice("method", o.method, {"normal field", "soft threshold", "hard threshold"},
+             {"Method",
+              "Normal field: denoises the face normals over several scales and moves the vertices to fit; tunes itself "
+              "and keeps sharp edges. Soft threshold: shrinks the pyramid's details (Roy). Hard threshold: drops small "
+              "details and leaves large ones.",
+              0, 2, false, "Method"});
+    bind_threshold(p, o);
+    p.boolean("keep_volume", o.keep_volume,
+              {"Keep volume", "Shift the surface along its normals until the volume is that of the input.", 0, 1, false,
+               "Method"});
+    p.boolean("confidence", o.confidence,
+              {"Quality as confidence",
+               "Vertex quality says how far a vertex is trusted: 1 stays, 0 gets the full threshold.", 0, 1, false,
+               "Region"});
+    bind_region(p, o.region);
+    const char* details = "Thresholding";
+    p.integer("finest_level", o.finest_level,
+              {"Finest level", "Thresholding: first level whose details are shrunk, 0 is the finest.", 0, 1000000000,
+               true, details});
+    p.integer("coarsest_level", o.coarsest_level,
+              {"Coarsest level", "Thresholding: details of levels up to, but not with, this one are shrunk.", 1,
+               1000000000, true, details});
+    p.boolean("per_level", o.per_level,
+              {"Threshold per level", "Thresholding: scale the automatic threshold to the noise each level holds.", 0,
+               1, true, details});
+    p.boolean(
+        "normal_only", o.normal_only,
+        {"Along the normal only", "Thresholding: leave the tangential part of details as it is.", 0, 1, true, details});
+    p.integer("cycle_spins", o.cycle_spins,
+              {"Cycle spinning", "Thresholding: average over so many different hierarchies; the time grows with it.", 1,
+               64, true, details});
+    bind_pyramid(p, o.pyramid);
+}
+
+}  // namespace
+
+const Plugin& table() {
+    static const Plugin plugin{
+        "FilterMultiresDenoise",
+        {
+            filter<DenoiseOptions>(
+                {"Multiresolution: Denoise",
+                 "apply_coord_multires_denoise",
+                 std::string(
+                     "Removes noise and keeps shape, without a parameter to set. The report says how much noise "
+                     "was found at each scale and how much was taken out.<br>") +
+                     cite_roy +
+                     "<i>Xianfang Sun, Paul L. Rosin, Ralph R. Martin, Frank C. Langbein</i><br><b>\"Fast and "
+                     "Effective "
+                     "Feature-Preserving Mesh Denoising\"</b><br>IEEE Transactions on Visualization and Computer "
+                     "Graphics 13(5), 2007.<br><i>Youyi Zheng, Hongbo Fu, Oscar Kin-Chung Au, Chiew-Lan Tai</i><br>"
+                     "<b>\"Bilateral Normal Filtering for Mesh Denoising\"</b><br>IEEE Transactions on Visualization "
+                     "and Computer Graphics 17(10), 2011.<br>",
+                 MenuClass::smoothing,
+                 faces,
+                 vertex_quality,
+                 vertex_positions,
+                 {},
+                 {}},
+                denoise_defaults, bind_denoise, denoise),
+        }};
+    return plugin;
+}
+
+}  // namespace multires::plugin
