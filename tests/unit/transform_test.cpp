@@ -59,11 +59,11 @@ double largest(const Field& f) {
     return most;
 }
 
-class EveryOperator : public testing::TestWithParam<Operator> {};
+class TransformWith : public testing::TestWithParam<Operator> {};
 
 }  // namespace
 
-TEST_P(EveryOperator, IsInvertedExactly) {
+TEST_P(TransformWith, IsInvertedExactly) {
     int cases = 0;
     for (std::size_t m = 0; m < every_class().size(); ++m)
         for (std::size_t g = 0; g < groupings().size(); ++g)
@@ -80,7 +80,7 @@ TEST_P(EveryOperator, IsInvertedExactly) {
                 }
 }
 
-TEST_P(EveryOperator, InvertsFieldsWithoutPositions) {
+TEST_P(TransformWith, InvertsFieldsWithoutPositions) {
     for (std::size_t m = 0; m < every_class().size(); ++m)
         for (const Scheme scheme : {Scheme::roy, Scheme::guskov}) {
             SCOPED_TRACE(every_class()[m].first);
@@ -94,7 +94,7 @@ TEST_P(EveryOperator, InvertsFieldsWithoutPositions) {
         }
 }
 
-TEST_P(EveryOperator, ReproducesConstants) {
+TEST_P(TransformWith, ReproducesConstants) {
     for (std::size_t m = 0; m < every_class().size(); ++m)
         for (const Scheme scheme : {Scheme::roy, Scheme::guskov}) {
             SCOPED_TRACE(every_class()[m].first);
@@ -110,7 +110,7 @@ TEST_P(EveryOperator, ReproducesConstants) {
         }
 }
 
-TEST_P(EveryOperator, RoysSchemeIsLinear) {
+TEST_P(TransformWith, RoysSchemeIsLinear) {
     for (std::size_t m = 0; m < every_class().size(); ++m) {
         SCOPED_TRACE(every_class()[m].first);
         const Hierarchy& h = hierarchy(m, m % 4);
@@ -131,7 +131,7 @@ TEST_P(EveryOperator, RoysSchemeIsLinear) {
     }
 }
 
-TEST_P(EveryOperator, CopiesOfAPositionChannelFollowIt) {
+TEST_P(TransformWith, CopiesOfAPositionChannelFollowIt) {
     for (std::size_t m = 0; m < every_class().size(); ++m) {
         SCOPED_TRACE(every_class()[m].first);
         const Hierarchy& h = hierarchy(m, m % 4);
@@ -151,7 +151,7 @@ TEST_P(EveryOperator, CopiesOfAPositionChannelFollowIt) {
     }
 }
 
-TEST_P(EveryOperator, DoesNotDependOnThreads) {
+TEST_P(TransformWith, DoesNotDependOnThreads) {
     static const Hierarchy h = hierarchy_of(shapes::scan(6000));
     for (const Scheme scheme : {Scheme::roy, Scheme::guskov}) {
         const Field f = with_random_channels(field_of(h.positions), 2, 5);
@@ -164,7 +164,7 @@ TEST_P(EveryOperator, DoesNotDependOnThreads) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Transform, EveryOperator, testing::ValuesIn(operators));
+INSTANTIATE_TEST_SUITE_P(Transform, TransformWith, testing::ValuesIn(operators));
 
 TEST(Transform, LinearFunctionsOnPlanesHaveNoDetailInside) {
     for (const Operator op : operators) {
