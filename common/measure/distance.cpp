@@ -1,0 +1,212 @@
+#include "measure/distance.h"
+
+#include "hierarchy/radix_sort.h"
+#include "measure/measure.h"
+#include "measure/reduce.h"
+#include "parallel/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+constexpr Index leaf_faces = 4;
+
+/// Spreads the low 10 bits so that two zeros follow each.
+std::uint32_t spread(std::uint32_t x) {
+    x = (x | x << 16) & 0x030000ff;
+    x = (x | x << 8) & 0x0300f00f;
+    x = (x | x << 4) & 0x030c30c3;
+    return (x | x << 2) & 0x09249249;
+}
+
+/// Faces along a space-filling curve (Morton order of their centres).
+std::vector<Index> curve_order(const Faces& faces, const Positions& positions, const Box& box) {
+    const Vec3 extent = (box.high - box.low).cwiseMax(1e-300);
+    const double longest = extent.maxCoeff();
+    std::vector<std::uint32_t> key(faces.size());
+    parallel_for(static_cast<Index>(faces.size()), [&](Index f) {
+        const Vec3 centre = (positions[faces[f][0]] + positions[faces[f][1]] + positions[faces[f][2]]) / 3;
+        std::uint32_t code = 0;
+        for (int k = 0; k < 3; ++k) {
+            const double cell = (centre[k] - box.low[k]) / longest * 1024;
+            code |= spread(static_cast<std::uint32_t>(std::clamp(cell, 0.0, 1023.0))) << k;
+        }
+        key[f] = code;
+    });
+    return sorted_by_key(key, ~0U);
+}
+
+double squared_distance_to_box(const Eigen::Vector3f& low, const Eigen::Vector3f& high, const Vec3& p) {
+    double sum = 0;
+    for (int k = 0; k < 3; ++k) {
+        const double outside = std::max(0.0, std::max(low[k] - p[k], p[k] - high[k]));
+        sum += outside * outside;
+    }
+    return sum;
+}
+
+struct Sum {
+    double largest = 0, squares = 0, weight = 0;
+    Sum& operator+=(const Sum& o) {
+        largest = std::max(largest, o.largest);
+        squares += o.squares;
+        weight += o.weight;
+        return *this;
+    }
+};
+
+double area(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * (b - a).cross(c - a).norm(); }
+
+}  // namespace
+
+Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const auto on_segment = [&](const Vec3& s, const Vec3& t) -> Vec3 {
+        const Vec3 d = t - s;
+        const double length = d.squaredNorm();
+        return length > 0 ? Vec3(s + std::clamp(d.dot(p - s) / length, 0.0, 1.0) * d) : s;
+    };
+    const Vec3 ab = b - a, ac = c - a, n = ab.cross(ac);
+    const double nn = n.squaredNorm();
+    if (nn > 0) {
+        // Barycentric coordinates of the projection.
+        const Vec3 ap = p - a;
+        const double v = ap.cross(ac).dot(n) / nn, w = ab.cross(ap).dot(n) / nn;
+        if (v >= 0 && w >= 0 && v + w <= 1) return a + v * ab + w * ac;
+    }
+    Vec3 best = on_segment(a, b);
+    for (const Vec3& other : {on_segment(b, c), on_segment(c, a)})
+        if ((other - p).squaredNorm() < (best - p).squaredNorm()) best = other;
+    return best;
+}
+
+SurfaceTree::SurfaceTree(const Faces& faces, const Positions& positions) : faces_(faces), positions_(positions) {
+    const Box box = bounding_box(positions);
+    centre_ = box.center();
+    order_ = curve_order(faces, positions, box);
+    const Index leaves = (static_cast<Index>(order_.size()) + leaf_faces - 1) / leaf_faces;
+    Index width = 1;
+    while (width < leaves) width *= 2;
+    first_leaf_ = width - 1;
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    node_.assign(first_leaf_ + width, {Eigen::Vector3f::Constant(inf), Eigen::Vector3f::Constant(-inf)});
+    parallel_for(leaves, [&](Index leaf) {
+        Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+        const Index end = std::min(static_cast<Index>(order_.size()), (leaf + 1) * leaf_faces);
+        for (Index i = leaf * leaf_faces; i < end; ++i)
+            for (const Index v : faces_[order_[i]]) {
+                low = low.cwiseMin(positions_[v] - centre_);
+                high = high.cwiseMax(positions_[v] - centre_);
+            }
+        Node& node = node_[first_leaf_ + leaf];
+        for (int k = 0; k < 3; ++k) {
+            node.low[k] = std::nextafter(static_cast<float>(low[k]), -inf);
+            node.high[k] = std::nextafter(static_cast<float>(high[k]), inf);
+        }
+    });
+    for (Index i = first_leaf_ - 1; i >= 0; --i) {
+        const Node &a = node_[2 * i + 1], &b = node_[2 * i + 2];
+        node_[i] = {a.low.cwiseMin(b.low), a.high.cwiseMax(b.high)};
+    }
+}
+
+void SurfaceTree::visit(Index face, const Vec3& p, Hit& hit) const {
+    const Face& f = faces_[face];
+    const Vec3 point = closest_on_triangle(p, positions_[f[0]], positions_[f[1]], positions_[f[2]]);
+    const double squared = (point - p).squaredNorm();
+    if (squared < hit.squared || hit.face < 0) hit = {squared, face, point};
+}
+
+SurfaceTree::Hit SurfaceTree::closest(const Vec3& p, Index hint) const {
+    Hit hit;
+    if (hint >= 0) visit(hint, p, hit);
+    const Vec3 q = p - centre_;
+    struct Entry {
+        double squared;
+        Index node;
+    };
+    std::array<Entry, 64> stack;
+    int top = 0;
+    stack[top++] = {squared_distance_to_box(node_[0].low, node_[0].high, q), 0};
+    while (top > 0) {
+        const Entry e = stack[--top];
+        if (e.squared >= hit.squared) continue;
+        if (e.node >= first_leaf_) {
+            const Index begin = (e.node - first_leaf_) * leaf_faces;
+            const Index end = std::min(static_cast<Index>(order_.size()), begin + leaf_faces);
+            for (Index i = begin; i < end; ++i) visit(order_[i], p, hit);
+            continue;
+        }
+        Entry near{0, 2 * e.node + 1}, far{0, 2 * e.node + 2};
+        for (Entry* child : {&near, &far})
+            child->squared = squared_distance_to_box(node_[child->node].low, node_[child->node].high, q);
+        if (far.squared < near.squared) std::swap(near, far);
+        if (far.squared < hit.squared) stack[top++] = far;
+        if (near.squared < hit.squared) stack[top++] = near;
+    }
+    return hit;
+}
+
+SurfaceSamples sample_surface(const Faces& faces, const Positions& positions, double spacing) {
+    SurfaceSamples s;
+    std::vector<double> vertex_weight(positions.size(), 0);
+    std::vector<Index> vertex_face(positions.size(), -1);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const Vec3 corner[3] = {positions[faces[f][0]], positions[faces[f][1]], positions[faces[f][2]]};
+        double longest = 0;
+        for (int k = 0; k < 3; ++k) longest = std::max(longest, (corner[(k + 1) % 3] - corner[k]).norm());
+        const int k = spacing > 0 ? static_cast<int>(std::clamp(std::ceil(longest / spacing), 1.0, 32.0)) : 1;
+        const double part = area(corner[0], corner[1], corner[2]) / (k * k);
+        for (const Index v : faces[f]) {
+            vertex_weight[v] += part / 12;
+            vertex_face[v] = static_cast<Index>(f);
+        }
+        const double weight = part - 3 * part / 12 / (k * k);
+        const auto add = [&](double i, double j) {  // the point at i, j of k steps along the two edges
+            const double u = i / k, v = j / k;
+            s.points.push_back((1 - u - v) * corner[0] + u * corner[1] + v * corner[2]);
+            s.weights.push_back(weight);
+            s.face.push_back(static_cast<Index>(f));
+        };
+        for (int i = 0; i < k; ++i)
+            for (int j = 0; i + j < k; ++j) {
+                add(i + 1 / 3.0, j + 1 / 3.0);
+                if (i + j + 1 < k) add(i + 2 / 3.0, j + 2 / 3.0);
+            }
+    }
+    for (std::size_t v = 0; v < positions.size(); ++v) {
+        if (vertex_face[v] < 0) continue;
+        s.points.push_back(positions[v]);
+        s.weights.push_back(vertex_weight[v]);
+        s.face.push_back(vertex_face[v]);
+    }
+    return s;
+}
+
+Distance distance_to(const SurfaceSamples& samples, const SurfaceTree& tree) {
+    const Sum sum = chunked_reduce<Sum>(samples.points.size(), [&](std::size_t begin, std::size_t end) {
+        Sum part;
+        Index hint = -1;
+        for (std::size_t i = begin; i < end; ++i) {
+            const SurfaceTree::Hit hit = tree.closest(samples.points[i], hint);
+            hint = hit.face;
+            part.largest = std::max(part.largest, hit.squared);
+            part.squares += samples.weights[i] * hit.squared;
+            part.weight += samples.weights[i];
+        }
+        return part;
+    });
+    return {std::sqrt(sum.largest), sum.weight > 0 ? std::sqrt(sum.squares / sum.weight) : 0};
+}
+
+Distance two_sided_distance(const Faces& a_faces, const Positions& a_positions, const Faces& b_faces,
+                            const Positions& b_positions) {
+    // Twice the mean edge length keeps nearly all faces of the finer mesh in one piece.
+    const double spacing = 2 * std::min(mean_edge_length(a_faces, a_positions), mean_edge_length(b_faces, b_positions));
+    const Distance ab = distance_to(sample_surface(a_faces, a_positions, spacing), SurfaceTree(b_faces, b_positions));
+    const Distance ba = distance_to(sample_surface(b_faces, b_positions, spacing), SurfaceTree(a_faces, a_positions));
+    return {std::max(ab.largest, ba.largest), std::sqrt((ab.rms * ab.rms + ba.rms * ba.rms) / 2)};
+}
+
+}  // namespace multires
