@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace multires {
 namespace {
@@ -85,26 +86,19 @@ void restore_volume(const Mesh& before, const std::vector<double>& weights, Posi
 }  // namespace
 
 double noise_deviation(const Mesh& mesh) {
-    Rings rings = vertex_rings(mesh);
-    RelaxationOptions options;
-    options.op = Operator::second_difference_flaps;
-    find_flaps(rings);
-    const Rows rows = relaxation(rings, mesh.positions, options);
-    const Positions smooth = relaxed(rings, rows, mesh.positions);
-    std::vector<double> residual;
-    for (Index r = 0; r < rings.rows(); ++r) {
-        if (rings.kind[r] != RingKind::closed) continue;
-        double gain = 1;  // of white noise through I - R
-        for (Index k = rows.offset[r]; k < rows.offset[r + 1]; ++k) gain += rows.weight[k] * rows.weight[k];
-        Vec3 normal(0, 0, 0);
-        const Index* ring = rings.begin(r);
-        const Vec3 first = mesh.positions[ring[0]];
-        for (Index j = 1; j + 1 < rings.size(r); ++j)
-            normal += (mesh.positions[ring[j]] - first).cross(mesh.positions[ring[j + 1]] - first);
-        const double length = normal.norm();
-        if (length > 0) residual.push_back((mesh.positions[r] - smooth[r]).dot(normal) / (length * std::sqrt(gain)));
+    const Rings rings = vertex_rings(mesh);
+    std::vector<double> difference;
+    for (Index i = 0; i < rings.rows(); ++i) {
+        if (rings.kind[i] != RingKind::closed) continue;
+        const Index* ring = rings.begin(i);
+        const Index size = rings.size(i);
+        for (Index j = 0; j < size; ++j)
+            if (ring[j] > i)
+                if (const auto d =
+                        hinge_difference(mesh.positions, i, ring[j], ring[(j + size - 1) % size], ring[(j + 1) % size]))
+                    difference.push_back(*d);
     }
-    return deviation_by_median(residual);
+    return deviation_by_median(difference);
 }
 
 Result denoise(const Layer& layer, const DenoiseOptions& options, Session& session) {

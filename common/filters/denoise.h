@@ -43,8 +43,9 @@ struct DenoiseOptions {
     PyramidOptions pyramid;  ///< for thresholding
 };
 
-/// Standard deviation of noise along the normals, mesh units: from the finest second-order details, robustly, so that
-/// edges and curvature hardly count. An upper estimate for meshes whose shape is as fine as their triangles.
+/// Standard deviation of the noise along the normals, mesh units: median of the second-order differences over the edges
+/// (Guskov et al. 1999, section 2.1), so that sharp edges hardly count. Somewhat low where noise is as strong as the
+/// triangles are large, and an upper estimate for meshes whose shape is as fine as their triangles.
 double noise_deviation(const Mesh& mesh);
 
 /// Removes noise and keeps what is shape.
