@@ -83,6 +83,22 @@ void restore_volume(const Mesh& before, const std::vector<double>& weights, Posi
     }
 }
 
+/// Guskov's second-order difference of an edge {i, j} with opposite vertices k and l, divided by what it makes of unit
+/// noise: flattened by the hinge map, the segment k-l crosses the line i-j at a point; the difference is that point
+/// seen from both. Nothing for degenerate triangles.
+std::optional<double> hinge_difference(const Positions& p, Index i, Index j, Index k, Index l) {
+    const Vec3 edge = p[j] - p[i];
+    const double length = edge.norm();
+    if (!(length > 0)) return std::nullopt;
+    const Vec3 along = edge / length, a = p[k] - p[i], b = p[l] - p[i];
+    const double x = a.dot(along), y = b.dot(along);
+    const double height_a = (a - x * along).norm(), height_b = (b - y * along).norm();
+    if (height_a < 1e-9 * length || height_b < 1e-9 * length) return std::nullopt;
+    const double u = height_b / (height_a + height_b), v = 1 - u, s = (u * x + v * y) / length;
+    const Vec3 difference = u * a + v * b - s * edge;
+    return difference.norm() / std::sqrt(u * u + v * v + s * s + (1 - s) * (1 - s));
+}
+
 }  // namespace
 
 double noise_deviation(const Mesh& mesh) {
