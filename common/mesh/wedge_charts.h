@@ -27,4 +27,19 @@ private:
     std::vector<Index> chart_;           // #F
 };
 
+/// A mesh cut open along the seams of its texture atlas, so that every vertex has one texture coordinate: corners that
+/// share a vertex and a wedge share a node.
+struct CutMesh {
+    Mesh mesh;                    ///< #N by 3 positions, #F by 3 nodes; face for face the mesh that was cut
+    std::vector<Index> vertex;    ///< #N: vertex of the mesh that was cut
+    std::vector<Index> node;      ///< 3 #F: node of corner k of face f at 3 f + k
+    std::vector<Index> nodes_of;  ///< #V+1: nodes of vertex i: nodes_of[i] .. nodes_of[i+1]
+    std::vector<Wedge> wedge;     ///< #N
+};
+
+/// @param wedges  3 #F. Wedges are the same if their numbers are (0 and -0 are) and their textures too.
+/// A face that repeats a vertex repeats one node in the cut mesh, so that it counts no more there than it did before;
+/// `node` holds its real nodes. Vertices in no face have no node. Cost: O(#F log d) for d faces around a vertex.
+CutMesh cut_along_seams(const Mesh& mesh, const std::vector<Wedge>& wedges);
+
 }  // namespace multires

@@ -1,0 +1,399 @@
+#include "filters/attributes.h"
+
+#include "fixtures.h"
+#include "measure/measure.h"
+#include "mesh/wedge_charts.h"
+
+#include <cmath>
+#include <limits>
+
+namespace multires {
+
+using namespace fixtures;
+
+namespace {
+
+constexpr Operator operators[] = {Operator::umbrella,          Operator::cotangent,
+                                  Operator::cotangent_clamped, Operator::cotangent_delaunay,
+                                  Operator::second_difference, Operator::second_difference_flaps};
+
+/// An attribute with value(vertex, channel).
+template <class F>
+Attribute attribute(const Mesh& mesh, AttributeKind kind, int width, const F& value, const std::string& name = "") {
+    Attribute a{kind, name, width, {}};
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        for (int k = 0; k < width; ++k) a.values.push_back(value(static_cast<Index>(i), k));
+    return a;
+}
+
+/// Every kind of attribute, all of them `value`.
+template <class F>
+Layer with_everything(Mesh mesh, const F& value) {
+    Layer layer;
+    layer.mesh = std::move(mesh);
+    layer.attributes = {attribute(layer.mesh, AttributeKind::color, 4, value),
+                        attribute(layer.mesh, AttributeKind::quality, 1, value),
+                        attribute(layer.mesh, AttributeKind::texcoord, 2, value),
+                        attribute(layer.mesh, AttributeKind::scalar, 1, value, "heat"),
+                        attribute(layer.mesh, AttributeKind::point, 3, value, "flow")};
+    for (const Face& f : layer.mesh.faces)
+        for (const Index v : f) layer.wedges.push_back({value(v, 0), value(v, 1), 0});
+    return layer;
+}
+
+AttributeChoice everything() { return {true, true, true, true, true, ""}; }
+
+Result relax(const Layer& layer, const AttributeRelaxationOptions& options) {
+    Session session;
+    return relax_attributes(layer, options, session);
+}
+
+template <class T>
+T reported(const Result& result, const std::string& key) {
+    for (const Report::Entry& e : result.report.entries())
+        if (e.key == key) return std::get<T>(e.value);
+    ADD_FAILURE() << "no " << key;
+    return T();
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+    double largest = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+    return largest;
+}
+
+double random_value(Index v, int k) {
+    shapes::Random random(1000 * v + k + 1);
+    return random.uniform(10, 240);
+}
+
+class AttributeOperator : public testing::TestWithParam<Operator> {};
+
+TEST_P(AttributeOperator, KeepsConstantsExactly) {
+    for (const auto& [name, mesh] : every_class()) {
+        const Layer layer = with_everything(mesh, [](Index, int k) { return 0.1 * (k + 1); });
+        for (const bool light : {false, true}) {
+            AttributeRelaxationOptions options;
+            options.what = everything();
+            options.op = GetParam();
+            options.iterations = 5;
+            options.keep_outline = false;
+            options.linear_light = light;
+            const Result result = relax(layer, options);
+            ASSERT_EQ(result.attributes.size(), 5u);
+            for (std::size_t i = 0; i < 5; ++i)
+                EXPECT_EQ(result.attributes[i].values, layer.attributes[i].values) << name;
+            for (std::size_t c = 0; c < layer.wedges.size(); ++c) {
+                EXPECT_EQ((*result.wedges)[c].u, layer.wedges[c].u) << name;
+                EXPECT_EQ((*result.wedges)[c].v, layer.wedges[c].v) << name;
+            }
+        }
+    }
+}
+
+TEST_P(AttributeOperator, KeepsLinearFunctionsOnPlanes) {
+    if (GetParam() == Operator::umbrella || GetParam() == Operator::cotangent_clamped) return;  // do not promise it
+    const Mesh mesh = shapes::plane(20);
+    const Layer layer = with_everything(mesh, [&](Index v, int k) {
+        const Vec3& p = mesh.positions[v];
+        return 100 + (30 + 5 * k) * p.x() - 20 * p.y();
+    });
+    AttributeRelaxationOptions options;
+    options.what = everything();
+    options.op = GetParam();
+    options.iterations = 20;
+    options.keep_outline = false;
+    const Result result = relax(layer, options);
+    for (std::size_t i = 0; i < 5; ++i)
+        EXPECT_LT(largest_difference(result.attributes[i].values, layer.attributes[i].values), 1e-9);
+    for (std::size_t c = 0; c < layer.wedges.size(); ++c) EXPECT_NEAR((*result.wedges)[c].u, layer.wedges[c].u, 1e-9);
+}
+
+TEST_P(AttributeOperator, DoesTheSameOnEveryChannel) {
+    const Mesh mesh = shapes::irregular_sphere(300);
+    const Layer layer = with_everything(mesh, [](Index v, int) { return random_value(v, 0); });
+    AttributeRelaxationOptions options;
+    options.what = everything();
+    options.op = GetParam();
+    options.iterations = 1;
+    const Result result = relax(layer, options);
+    for (const Attribute& a : result.attributes)
+        for (std::size_t i = 0; i < a.values.size(); ++i) {
+            const double x = result.attributes[1].values[i / a.width];
+            EXPECT_EQ(a.values[i], a.kind == AttributeKind::color ? std::clamp(x, 0.0, 255.0) : x);
+        }
+    for (std::size_t c = 0; c < result.wedges->size(); ++c)  // the cut mesh has other numbers: sums in other order
+        EXPECT_NEAR((*result.wedges)[c].u, result.attributes[1].values[mesh.faces[c / 3][c % 3]], 1e-9);
+}
+
+INSTANTIATE_TEST_SUITE_P(RelaxAttributes, AttributeOperator, testing::ValuesIn(operators));
+
+TEST(RelaxAttributes, StaysInRangeAndLowersTheDirichletEnergy) {
+    const Mesh mesh = shapes::irregular_sphere(1000);
+    Layer layer = with_everything(mesh, random_value);
+    // Weights in [0, 1] and symmetric but for the sums of the rows: the umbrella's energy is over the edges.
+    const auto energy = [&](const std::vector<double>& f) {
+        double sum = 0;
+        for (const Face& face : mesh.faces)
+            for (int k = 0; k < 3; ++k) sum += std::pow(f[face[k]] - f[face[(k + 1) % 3]], 2);
+        return sum;
+    };
+    AttributeRelaxationOptions options;
+    options.what.quality = true;
+    const auto bounds = std::minmax_element(layer.attributes[1].values.begin(), layer.attributes[1].values.end());
+    const double low = *bounds.first, high = *bounds.second;
+    for (const Operator op : {Operator::umbrella, Operator::cotangent_delaunay}) {
+        options.op = op;
+        Layer now = layer;
+        for (int i = 0; i < 20; ++i) {
+            const double before = energy(now.attributes[1].values);
+            now.attributes[1] = relax(now, options).attributes[0];
+            EXPECT_LT(energy(now.attributes[1].values), before) << "step " << i;
+        }
+        for (const double x : now.attributes[1].values) {
+            EXPECT_GE(x, low);
+            EXPECT_LE(x, high);
+        }
+    }
+}
+
+TEST(RelaxAttributes, IterationsAreStepsAndColoursAreNotRoundedBetweenThem) {
+    Layer layer = with_everything(shapes::irregular_sphere(300), random_value);
+    AttributeRelaxationOptions options;
+    options.what.color = true;
+    options.iterations = 7;
+    const Attribute at_once = relax(layer, options).attributes[0];
+    options.iterations = 1;
+    for (int i = 0; i < 7; ++i) layer.attributes[0] = relax(layer, options).attributes[0];
+    EXPECT_LT(largest_difference(at_once.values, layer.attributes[0].values), 1e-10);
+    int fractions = 0;
+    for (const double x : at_once.values) fractions += x != std::round(x);
+    EXPECT_GT(fractions, 1000) << "rounding is for the host";
+}
+
+TEST(RelaxAttributes, AveragesLightIfAskedTo) {
+    // One white vertex among black ones: half the light is 188 of 255.
+    Layer layer = with_everything(shapes::fan(6), [](Index v, int) { return v == 0 ? 255.0 : 0.0; });
+    AttributeRelaxationOptions options;
+    options.what.color = true;
+    options.strength = 0.5;
+    EXPECT_NEAR(relax(layer, options).attributes[0].values[0], 127.5, 1e-9);
+    options.linear_light = true;
+    const Attribute light = relax(layer, options).attributes[0];
+    EXPECT_NEAR(light.values[0], 187.516, 1e-3);
+    EXPECT_NEAR(light.values[3], 127.5, 1e-9) << "alpha is no light";
+}
+
+TEST(RelaxAttributes, LightCodeIsInvertible) {
+    for (int i = -20; i < 300; ++i) EXPECT_NEAR(encode_light(decode_light(i)), i, 1e-3);
+    for (int i = 0; i < 256; ++i) EXPECT_EQ(std::lround(encode_light(decode_light(i))), i);
+    EXPECT_EQ(decode_light(255), 255);
+    EXPECT_EQ(decode_light(0), 0);
+}
+
+TEST(RelaxAttributes, HonoursTheRegion) {
+    Layer layer = with_everything(shapes::irregular_sphere(1000), random_value);
+    layer.attributes[1] = attribute(layer.mesh, AttributeKind::quality, 1,
+                                    [&](Index v, int) { return layer.mesh.positions[v].x() > 0 ? 0.5 : -3.0; });
+    AttributeRelaxationOptions options;
+    options.what.color = options.what.wedge_texcoord = true;
+    options.region.selected = true;
+    EXPECT_THROW(relax(layer, options), InputError) << "nothing is selected";
+    layer.selected_face.assign(layer.mesh.faces.size(), 0);
+    layer.selected_face[17] = 1;
+    options.iterations = 4;
+    Result result = relax(layer, options);
+    const Face& chosen = layer.mesh.faces[17];
+    const auto is_chosen = [&](Index v) { return std::find(chosen.begin(), chosen.end(), v) != chosen.end(); };
+    for (std::size_t i = 0; i < result.attributes[0].values.size(); ++i)
+        EXPECT_EQ(result.attributes[0].values[i] != layer.attributes[0].values[i],
+                  is_chosen(static_cast<Index>(i / 4)));
+    for (std::size_t c = 0; c < layer.wedges.size(); ++c)
+        EXPECT_EQ((*result.wedges)[c].u != layer.wedges[c].u, is_chosen(layer.mesh.faces[c / 3][c % 3]));
+
+    options.iterations = 1;
+    options.region = {};
+    const std::vector<double> full = relax(layer, options).attributes[0].values;
+    options.region.quality_mask = true;
+    const std::vector<double> soft = relax(layer, options).attributes[0].values;
+    for (std::size_t i = 0; i < full.size(); ++i) {
+        const double old = layer.attributes[0].values[i], share = layer.mesh.positions[i / 4].x() > 0 ? 0.5 : 0;
+        EXPECT_NEAR(soft[i], old + share * (full[i] - old), 1e-10);
+    }
+}
+
+TEST(RelaxAttributes, NamesWhatIsMissingOrNotANumber) {
+    const auto message = [](const Layer& layer, const AttributeRelaxationOptions& options) -> std::string {
+        try {
+            relax(layer, options);
+        } catch (const InputError& e) {
+            return e.what();
+        }
+        return "";
+    };
+    Layer bare;
+    bare.mesh = shapes::icosphere(3);
+    const Layer full = with_everything(bare.mesh, random_value);
+    const auto only = [](bool AttributeChoice::*what) {
+        AttributeRelaxationOptions options;
+        options.what.*what = true;
+        return options;
+    };
+    const std::pair<const char*, bool AttributeChoice::*> kinds[] = {
+        {"color", &AttributeChoice::color},
+        {"quality", &AttributeChoice::quality},
+        {"texcoord", &AttributeChoice::texcoord},
+        {"wedge_texcoord", &AttributeChoice::wedge_texcoord},
+        {"custom", &AttributeChoice::custom}};
+    for (std::size_t i = 0; i < std::size(kinds); ++i) {
+        const auto [name, member] = kinds[i];
+        EXPECT_EQ(message(bare, only(member)).find(name), 0u) << message(bare, only(member));
+        Layer broken = full;
+        if (i == 3)
+            broken.wedges[7].v = std::numeric_limits<double>::infinity();
+        else
+            broken.attributes[std::min<std::size_t>(i, 3)].values[5] = std::numeric_limits<double>::quiet_NaN();
+        EXPECT_EQ(message(broken, only(member)).find(name), 0u) << message(broken, only(member));
+    }
+    EXPECT_NE(message(full, {}), "") << "nothing chosen";
+    AttributeRelaxationOptions options = only(&AttributeChoice::custom);
+    options.what.custom_names = "flow, cold";
+    EXPECT_EQ(message(full, options).find("custom_names"), 0u);
+    options.what.custom_names = " heat ,flow";
+    EXPECT_EQ(relax(full, options).attributes.size(), 2u);
+    options.what.custom_names = "flow";
+    EXPECT_EQ(relax(full, options).attributes.at(0).name, "flow");
+    for (auto change : {+[](AttributeRelaxationOptions& o) { o.iterations = 0; },
+                        +[](AttributeRelaxationOptions& o) { o.strength = 0; },
+                        +[](AttributeRelaxationOptions& o) { o.strength = NAN; },
+                        +[](AttributeRelaxationOptions& o) { o.corner_angle = 181; }}) {
+        AttributeRelaxationOptions wrong = only(&AttributeChoice::color);
+        change(wrong);
+        EXPECT_NE(message(full, wrong), "");
+    }
+}
+
+TEST(RelaxAttributes, DefaultIsTheFirstAttributeThereIs) {
+    Layer layer;
+    layer.mesh = shapes::icosphere(2);
+    EXPECT_TRUE(default_choice(nullptr).color);
+    EXPECT_TRUE(default_choice(&layer).color);
+    const Layer full = with_everything(layer.mesh, random_value);
+    EXPECT_TRUE(default_choice(&full).color && !default_choice(&full).quality);
+    layer.attributes = {full.attributes[4]};
+    EXPECT_TRUE(default_choice(&layer).custom);
+    layer.attributes.push_back(full.attributes[2]);
+    EXPECT_TRUE(default_choice(&layer).texcoord);
+    layer.wedges = full.wedges;
+    EXPECT_TRUE(default_choice(&layer).wedge_texcoord);
+    layer.attributes.push_back(full.attributes[1]);
+    EXPECT_TRUE(default_choice(&layer).quality && !default_choice(&layer).wedge_texcoord);
+}
+
+// ---- charts ---------------------------------------------------------------------------------------------------------
+
+/// A plane whose faces right of the middle column of edges are a chart of their own, turned by 90 degrees and moved;
+/// noise on the coordinates of the vertices that are not on its outline.
+Layer two_charts(double noise) {
+    Layer layer;
+    layer.mesh = shapes::plane(12, {0, 0, 1});
+    for (const Face& f : layer.mesh.faces) {
+        double x = 0;
+        for (const Index v : f) x += layer.mesh.positions[v].x() / 3;
+        for (const Index v : f) {
+            const Vec3& p = layer.mesh.positions[v];
+            const double du = noise * (random_value(v, 0) - 125) / 125, dv = noise * (random_value(v, 1) - 125) / 125;
+            const double u = p.x() + du, w = p.y() + dv;
+            layer.wedges.push_back(x < 0.5 ? Wedge{u, w, 0} : Wedge{10 - w, u, 1});
+        }
+    }
+    return layer;
+}
+
+TEST(WedgeRelaxation, CutMeshHasANodeForEachCoordinate) {
+    const Layer layer = two_charts(0);
+    const CutMesh cut = cut_along_seams(layer.mesh, layer.wedges);
+    EXPECT_EQ(cut.vertex.size(), layer.mesh.positions.size() + 13);
+    EXPECT_EQ(cut.mesh.positions.size(), cut.vertex.size());
+    for (std::size_t c = 0; c < layer.wedges.size(); ++c) {
+        const Index n = cut.node[c], v = layer.mesh.faces[c / 3][c % 3];
+        EXPECT_EQ(cut.vertex[n], v);
+        EXPECT_EQ(cut.mesh.faces[c / 3][c % 3], n);
+        EXPECT_EQ(cut.wedge[n].u, layer.wedges[c].u);
+        EXPECT_TRUE(cut.nodes_of[v] <= n && n < cut.nodes_of[v + 1]);
+    }
+}
+
+TEST(WedgeRelaxation, CornersThatWereTogetherStayTogether) {
+    for (const auto& [name, mesh] : every_class()) {
+        Layer layer = with_everything(mesh, random_value);
+        for (std::size_t c = 0; c < layer.wedges.size(); ++c)  // a seam through the middle
+            if (mesh.positions[mesh.faces[c / 3][0]].x() > 0) layer.wedges[c].u += 1000;
+        const CutMesh cut = cut_along_seams(mesh, layer.wedges);
+        for (const bool keep : {true, false}) {
+            AttributeRelaxationOptions options;
+            options.what.wedge_texcoord = true;
+            options.keep_outline = keep;
+            options.iterations = 3;
+            const Result result = relax(layer, options);
+            std::vector<const Wedge*> of_node(cut.vertex.size(), nullptr);
+            for (std::size_t c = 0; c < cut.node.size(); ++c) {
+                const Wedge& w = (*result.wedges)[c];
+                const Wedge*& first = of_node[cut.node[c]];
+                if (!first) first = &w;
+                EXPECT_EQ(w.u, first->u) << name;
+                EXPECT_EQ(w.v, first->v) << name;
+                EXPECT_EQ(w.texture, layer.wedges[c].texture) << name;
+                EXPECT_EQ(w.u > 500, layer.wedges[c].u > 500) << name << ": each chart in its own place";
+            }
+        }
+    }
+}
+
+TEST(WedgeRelaxation, OutlinesAreKeptAndTheInsideBecomesSmooth) {
+    const Layer noisy = two_charts(0.02), clean = two_charts(0);
+    AttributeRelaxationOptions options;
+    options.what.wedge_texcoord = true;
+    options.iterations = 200;
+    const Result result = relax(noisy, options);
+    EXPECT_EQ(reported<int>(result, "seam_vertices"), 13);
+    const auto rms = [&](const std::vector<Wedge>& wedges, bool outline) {
+        double sum = 0;
+        for (std::size_t c = 0; c < wedges.size(); ++c) {
+            const Vec3& p = noisy.mesh.positions[noisy.mesh.faces[c / 3][c % 3]];
+            const bool on = std::min({p.x(), p.y(), 1 - p.x(), 1 - p.y(), std::abs(p.x() - 0.5)}) < 1e-9;
+            if (on == outline) sum += std::pow(wedges[c].u - clean.wedges[c].u, 2);
+            if (on && outline) {
+                EXPECT_EQ(wedges[c].u, noisy.wedges[c].u);
+            }
+        }
+        return std::sqrt(sum);
+    };
+    EXPECT_LT(rms(*result.wedges, false), 0.5 * rms(noisy.wedges, false));
+    rms(*result.wedges, true);
+}
+
+TEST(WedgeRelaxation, BothSidesOfASeamMoveAlikeIfOutlinesMay) {
+    const Layer noisy = two_charts(0.02);
+    AttributeRelaxationOptions options;
+    options.what.wedge_texcoord = true;
+    options.keep_outline = false;
+    options.iterations = 5;
+    const std::vector<Wedge> after = *relax(noisy, options).wedges;
+    const CutMesh before = cut_along_seams(noisy.mesh, noisy.wedges);
+    std::vector<Wedge> node(before.vertex.size());
+    for (std::size_t c = 0; c < after.size(); ++c) node[before.node[c]] = after[c];
+    int moved = 0;
+    for (std::size_t v = 0; v + 1 < before.nodes_of.size(); ++v) {
+        if (before.nodes_of[v + 1] - before.nodes_of[v] != 2) continue;
+        Wedge a = node[before.nodes_of[v]], b = node[before.nodes_of[v] + 1];
+        if (a.texture == 1) std::swap(a, b);
+        EXPECT_NEAR(10 - a.v, b.u, 1e-12);
+        EXPECT_NEAR(a.u, b.v, 1e-12);
+        moved += a.u != before.wedge[before.nodes_of[v]].u && a.u != before.wedge[before.nodes_of[v] + 1].u;
+    }
+    EXPECT_EQ(moved, 11) << "all but the ends, where the seam meets the boundary";
+}
+
+}  // namespace
+}  // namespace multires
