@@ -127,7 +127,9 @@ std::vector<double> band_share(const KeptPyramid& pyramid, const Band& band, dou
     // Limits at or beyond the ends leave out nothing: 0 is "as fine as there is".
     const bool from_finest =
         band.unit == Unit::vertices ? band.finest >= pyramid.levels()[0].vertices : band.finest <= 0;
-    const bool to_coarsest = band.unit == Unit::vertices && band.coarsest <= pyramid.levels().back().vertices;
+    const bool to_coarsest =
+        (band.unit == Unit::vertices && band.coarsest <= pyramid.levels().back().vertices) ||
+        (band.unit == Unit::level && band.coarsest >= static_cast<double>(pyramid.levels().size() - 1));
     const double low = from_finest ? none : axis.octave(band.finest);
     const double high = to_coarsest ? -none : axis.octave(band.coarsest);
     const std::size_t count = pyramid.levels().size() - 1;
