@@ -1,0 +1,291 @@
+#include "filters/band_filters.h"
+
+#include "filter_fixtures.h"
+#include "measure/measure.h"
+
+namespace multires {
+
+using namespace fixtures;
+
+namespace {
+
+const double pi = std::acos(-1.0);
+
+double wavelength(Index degree) { return 2 * pi / std::sqrt(degree * (degree + 1.0)); }
+
+constexpr Index low_degree = 4, high_degree = 34;  // a factor of 7.7 between their wavelengths
+
+/// Waves of the high band and shorter ones: a level carries waves of 2 edges just so, and shows them well from 3.5 on.
+const double above_high = 1.75 * wavelength(high_degree), below_high = 0.4 * wavelength(high_degree);
+
+const shapes::BandedSphere& sphere() {
+    static const shapes::BandedSphere s = [] {
+        shapes::BandedSphereOptions options;
+        options.low_degree = low_degree;
+        options.high_degree = high_degree;
+        return shapes::banded_sphere(options);
+    }();
+    return s;
+}
+
+/// The schemes and presmoothings that filters are judged with.
+std::vector<PyramidOptions> pyramids() {
+    std::vector<PyramidOptions> all(4);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        all[i].scheme = i < 2 ? Scheme::guskov : Scheme::roy;
+        all[i].presmooth = i % 2 == 0 ? 0.5 : 0;
+    }
+    return all;
+}
+
+template <class Options>
+Result run(Result (*filter)(const Layer&, const Options&, Session&), const Layer& layer, const Options& options) {
+    Session session;
+    return filter(layer, options, session);
+}
+
+LowPassOptions halfway_low_pass(const Layer& layer) {
+    LowPassOptions options;
+    options.cutoff = default_cutoff(layer, Unit::wavelength);
+    return options;
+}
+
+}  // namespace
+
+TEST(BandFilters, LowPassKeepsTheLowAndRemovesTheHighBand) {
+    for (const PyramidOptions& pyramid : pyramids()) {
+        LowPassOptions options;
+        options.pyramid = pyramid;
+        options.cutoff = above_high;
+        const BandsLeft left(sphere(), *run(low_pass, layer_of(sphere().mesh), options).positions);
+        EXPECT_GE(left.low, 0.95);
+        EXPECT_LE(left.low, 1.01);
+        EXPECT_LE(std::abs(left.high), 0.10);
+        EXPECT_LE(left.residual, 0.7);  // irregular levels turn a part of the bands into something else
+        RecordProperty("residual", std::to_string(left.residual));
+    }
+}
+
+TEST(BandFilters, StopBandRemovesTheHighBandOnly) {
+    for (const PyramidOptions& pyramid : pyramids()) {
+        BandOptions options;
+        options.pyramid = pyramid;
+        options.band = {Unit::wavelength, below_high, above_high, 0};
+        options.gain = 0;
+        const BandsLeft left(sphere(), *run(scale_band, layer_of(sphere().mesh), options).positions);
+        EXPECT_GE(left.low, 0.95);
+        EXPECT_LE(left.low, 1.01);
+        EXPECT_LE(std::abs(left.high), 0.10);
+        EXPECT_LE(left.residual, 0.7);
+    }
+}
+
+TEST(BandFilters, EnhanceDoublesTheHighBandOnly) {
+    for (const PyramidOptions& pyramid : pyramids()) {
+        BandOptions options;
+        options.pyramid = pyramid;
+        options.band = {Unit::wavelength, below_high, above_high, 0};
+        options.gain = 2;
+        const BandsLeft left(sphere(), *run(scale_band, layer_of(sphere().mesh), options).positions);
+        EXPECT_NEAR(left.low, 1, 0.05);
+        EXPECT_NEAR(left.high, 2, 0.1);
+        EXPECT_LE(left.residual, 0.7);
+    }
+}
+
+TEST(BandFilters, EqualizerIsASumOfBands) {
+    const Layer layer = layer_of(sphere().mesh);
+    EqualizerOptions options;
+    options.gain = {1, 1, 1, 1, 1, 1, 1, 1};
+    EXPECT_EQ(*run(equalizer, layer, options).positions, layer.mesh.positions);
+    // All the same: the gain of every level.
+    options.gain.fill(0.25);
+    for (const double gain : series(run(equalizer, layer, options).report, "gains")) EXPECT_NEAR(gain, 0.25, 1e-9);
+    // The four finest bands reach to the middle of the octaves, as a low pass does.
+    options.gain = {0, 0, 0, 0, 1, 1, 1, 1};
+    LowPassOptions low;
+    low.cutoff = equalizer_limits(layer, options.pyramid)[4];
+    low.softness = options.softness;
+    const Result a = run(equalizer, layer, options), b = run(low_pass, layer, low);
+    EXPECT_LE(largest_distance(*a.positions, *b.positions), 1e-9);
+}
+
+TEST(BandFilters, GainOneChangesNothingAndZeroIsLowPass) {
+    const Layer layer = layer_of(shapes::scan(2000));
+    BandOptions band;
+    band.band = {Unit::level, 0, 5, 0};
+    band.gain = 1;
+    EXPECT_EQ(*run(scale_band, layer, band).positions, layer.mesh.positions);
+    band.gain = 0;
+    LowPassOptions low;
+    low.unit = Unit::level;
+    low.cutoff = 5;
+    EXPECT_EQ(*run(scale_band, layer, band).positions, *run(low_pass, layer, low).positions);
+}
+
+TEST(BandFilters, ReportsAreRight) {
+    const Layer layer = layer_of(shapes::scan(2000));
+    const Result result = run(low_pass, layer, halfway_low_pass(layer));
+    const Positions &before = layer.mesh.positions, &after = *result.positions;
+    double largest = 0, squares = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        largest = std::max(largest, (after[i] - before[i]).norm());
+        squares += (after[i] - before[i]).squaredNorm();
+    }
+    EXPECT_GT(largest, 1e-3);
+    EXPECT_NEAR(number(result.report, "largest_displacement"), largest, 1e-12);
+    EXPECT_NEAR(number(result.report, "rms_displacement"), std::sqrt(squares / before.size()), 1e-12);
+    for (const auto& [positions, when] : {std::pair(before, "before"), std::pair(after, "after")}) {
+        double volume = 0, area = 0;
+        for (const Face& f : layer.mesh.faces) {
+            const Vec3 &a = positions[f[0]], &b = positions[f[1]], &c = positions[f[2]];
+            volume += a.dot(b.cross(c)) / 6;
+            area += (b - a).cross(c - a).norm() / 2;
+        }
+        EXPECT_NEAR(number(result.report, std::string("volume_") + when), volume, 1e-10);
+        EXPECT_NEAR(number(result.report, std::string("area_") + when), area, 1e-10);
+    }
+    Index flipped = 0;
+    for (const Face& f : layer.mesh.faces) {
+        const auto normal = [&](const Positions& p) { return (p[f[1]] - p[f[0]]).cross(p[f[2]] - p[f[0]]); };
+        flipped += normal(before).dot(normal(after)) < 0;
+    }
+    EXPECT_EQ(count(result.report, "flipped_faces"), flipped);
+    EXPECT_FALSE(series(result.report, "gains").empty());
+    EXPECT_FALSE(value<bool>(result.report, "pyramid_reused"));
+}
+
+TEST(BandFilters, RefuseValuesThatMakeNoSense) {
+    const Layer layer = layer_of(shapes::scan(500));
+    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    for (const double cutoff : {0.0, -1.0, nan, inf}) {
+        LowPassOptions options;
+        options.cutoff = cutoff;
+        EXPECT_THROW(run(low_pass, layer, options), InputError);
+    }
+    for (const double gain : {nan, inf, -inf}) {
+        BandOptions band;
+        band.band = {Unit::level, 0, 5, 0};
+        band.gain = gain;
+        EXPECT_THROW(run(scale_band, layer, band), InputError);
+        EqualizerOptions eight;
+        eight.gain[5] = gain;
+        EXPECT_THROW(run(equalizer, layer, eight), InputError);
+        UnsharpOptions sharp;
+        sharp.xi = gain;
+        EXPECT_THROW(run(unsharp, layer, sharp), InputError);
+    }
+    UnsharpOptions sharp;
+    sharp.iterations = 0;
+    EXPECT_THROW(run(unsharp, layer, sharp), InputError);
+}
+
+TEST(BandFilters, IrregularAndIsolatedVerticesDoNotMove) {
+    for (const auto& [name, mesh] : every_class()) {
+        SCOPED_TRACE(name);
+        const Layer layer = layer_of(mesh);
+        const Rings rings = vertex_rings(mesh);
+        LowPassOptions low = halfway_low_pass(layer);
+        low.pyramid.base_vertices = 10;
+        UnsharpOptions sharp;
+        for (const Positions& after : {*run(low_pass, layer, low).positions, *run(unsharp, layer, sharp).positions})
+            for (Index v = 0; v < rings.rows(); ++v) {
+                ASSERT_TRUE(after[v].allFinite());
+                const bool regular = rings.kind[v] == RingKind::closed || rings.kind[v] == RingKind::open;
+                EXPECT_TRUE(regular || after[v] == mesh.positions[v]) << "vertex " << v;
+            }
+    }
+}
+
+TEST(BandFilters, FollowRigidMotionsAndScale) {
+    const Mesh mesh = shapes::scan(1500);
+    Motion motion;
+    motion.scale = 250;
+    motion.offset *= 100;
+    const Layer layer = layer_of(mesh), moved = layer_of(motion(mesh));
+    for (const PyramidOptions& pyramid : pyramids()) {
+        BandOptions band;
+        band.pyramid = pyramid;
+        band.band = {Unit::wavelength, 0, default_cutoff(layer, Unit::wavelength), 0};
+        band.gain = 1.5;
+        Positions expected = *run(scale_band, layer, band).positions;
+        EXPECT_GT(largest_distance(expected, mesh.positions), 1e-3);
+        for (Vec3& p : expected) p = motion(p);
+        band.band.coarsest *= motion.scale;
+        EXPECT_LE(largest_distance(*run(scale_band, moved, band).positions, expected), 1e-9 * box_diagonal(moved));
+    }
+    UnsharpOptions sharp;
+    Positions expected = *run(unsharp, layer, sharp).positions;
+    for (Vec3& p : expected) p = motion(p);
+    EXPECT_LE(largest_distance(*run(unsharp, moved, sharp).positions, expected), 1e-9 * box_diagonal(moved));
+}
+
+TEST(Unsharp, IsLinearInItsStrength) {
+    const Layer layer = layer_of(shapes::scan(1200));
+    for (const Operator op : {Operator::umbrella, Operator::cotangent_delaunay, Operator::second_difference_flaps}) {
+        UnsharpOptions options;
+        options.op = op;
+        options.iterations = 7;
+        const auto at = [&](double xi) {
+            options.xi = xi;
+            return *run(unsharp, layer, options).positions;
+        };
+        EXPECT_EQ(at(1), layer.mesh.positions);
+        Rings rings = rings_with_flaps(layer.mesh);
+        RelaxationOptions relaxation_options;
+        relaxation_options.op = op;
+        const Rows rows = relaxation(rings, layer.mesh.positions, relaxation_options);
+        Positions smooth = layer.mesh.positions;
+        for (int i = 0; i < 7; ++i) smooth = relaxed(rings, rows, smooth);
+        EXPECT_LE(largest_distance(at(0), smooth), 1e-13);
+        EXPECT_GT(largest_distance(smooth, layer.mesh.positions), 1e-3);
+        const Positions half = at(0.5), triple = at(3);
+        for (std::size_t i = 0; i < smooth.size(); ++i) {
+            const Vec3& p = layer.mesh.positions[i];
+            EXPECT_LE((half[i] - (0.5 * p + 0.5 * smooth[i])).norm(), 1e-13);
+            EXPECT_LE((triple[i] - (3 * p - 2 * smooth[i])).norm(), 1e-12);
+        }
+    }
+}
+
+TEST(DetailQuality, IsWhatTheBandAdds) {
+    const Layer layer = layer_of(shapes::scan(2000));
+    BandOptions band;
+    band.band = {Unit::level, 1, 6, 0};
+    const Positions without = *run(scale_band, layer, band).positions;
+    DetailOptions options;
+    options.band = band.band;
+    const Result length = run(detail_quality, layer, options);
+    options.signed_normal = true;
+    const Result part = run(detail_quality, layer, options);
+    ASSERT_TRUE(length.quality && part.quality && !length.positions);
+    double most = 0, least = 1e300;
+    Index inwards = 0;
+    for (std::size_t i = 0; i < without.size(); ++i) {
+        EXPECT_NEAR((*length.quality)[i], (layer.mesh.positions[i] - without[i]).norm(), 1e-13);
+        EXPECT_LE(std::abs((*part.quality)[i]), (*length.quality)[i] + 1e-15);
+        inwards += (*part.quality)[i] < 0;
+        most = std::max(most, (*length.quality)[i]);
+        least = std::min(least, (*length.quality)[i]);
+    }
+    EXPECT_GT(inwards, 500);  // bumps go both ways
+    EXPECT_LT(inwards, 1500);
+    EXPECT_EQ(number(length.report, "largest_detail"), most);
+    EXPECT_EQ(number(length.report, "least_detail"), least);
+    EXPECT_NEAR(number(length.report, "rms_detail"), rms(*length.quality), 1e-15);
+}
+
+TEST(DetailQuality, SignedPartIsPositiveWhereBumpsPointOutwards) {
+    // A sphere with one vertex pulled out and one pushed in.
+    Mesh mesh = shapes::irregular_sphere(2000);
+    mesh.positions[700] *= 1.03;
+    mesh.positions[1400] *= 0.97;
+    DetailOptions options;
+    options.band = {Unit::level, 0, 8, 0};
+    options.signed_normal = true;
+    const Result result = run(detail_quality, layer_of(mesh), options);
+    EXPECT_GT((*result.quality)[700], 0.015);
+    EXPECT_LT((*result.quality)[1400], -0.015);
+}
+
+}  // namespace multires

@@ -1,0 +1,251 @@
+#include "filters/pyramid.h"
+
+#include "filter_fixtures.h"
+#include "measure/measure.h"
+#include "mesh/validation.h"
+
+#include <functional>
+#include <set>
+
+namespace multires {
+
+using namespace fixtures;
+
+namespace {
+
+Layer small_layer() { return layer_of(shapes::scan(600)); }
+
+std::shared_ptr<const KeptPyramid> kept_by(const Layer& layer, const PyramidOptions& options, Session& session) {
+    Report report;
+    const auto before = session.pyramid;
+    const auto pyramid = pyramid_of(layer, options, session, report);
+    EXPECT_EQ(pyramid, session.pyramid);
+    EXPECT_EQ(value<bool>(report, "pyramid_reused"), pyramid == before);
+    return pyramid;
+}
+
+}  // namespace
+
+TEST(KeptPyramid, IsReusedWhileNothingItDependsOnChanges) {
+    Layer layer = small_layer();
+    Session session;
+    const auto first = kept_by(layer, {}, session);
+    EXPECT_EQ(kept_by(layer, {}, session), first);
+    // Attributes, selections and marks that are not used.
+    layer = with_quality(std::move(layer), std::vector<double>(layer.mesh.positions.size(), 0.5));
+    layer.selected_vertex.assign(layer.mesh.positions.size(), 1);
+    layer.selected_face.assign(layer.mesh.faces.size(), 1);
+    layer.faux_edges.assign(layer.mesh.faces.size(), 1);
+    layer.selected_edges.assign(layer.mesh.faces.size(), 1);
+    EXPECT_EQ(kept_by(layer, {}, session), first);
+    // An angle that no feature is found by.
+    PyramidOptions options;
+    options.feature_angle = 12;
+    EXPECT_EQ(kept_by(layer, options, session), first);
+    // A copy of the layer at another place in memory.
+    const Layer copy = layer;
+    EXPECT_EQ(kept_by(copy, {}, session), first);
+}
+
+TEST(KeptPyramid, IsNeverReusedAfterAChangeOfTheMesh) {
+    const Layer original = small_layer();
+    const std::vector<std::pair<std::string, std::function<void(Layer&)>>> changes{
+        {"a coordinate by one bit",
+         [](Layer& l) { l.mesh.positions[17].y() = std::nextafter(l.mesh.positions[17].y(), 10); }},
+        {"a face turned",
+         [](Layer& l) { std::rotate(l.mesh.faces[3].begin(), l.mesh.faces[3].begin() + 1, l.mesh.faces[3].end()); }},
+        {"a face less", [](Layer& l) { l.mesh.faces.pop_back(); }},
+        {"two faces exchanged", [](Layer& l) { std::swap(l.mesh.faces[5], l.mesh.faces[6]); }},
+        {"a vertex more",
+         [](Layer& l) {
+             l.mesh.positions.push_back({0, 0, 0});
+         }},
+    };
+    for (const auto& [what, change] : changes) {
+        SCOPED_TRACE(what);
+        Session session;
+        const auto first = kept_by(original, {}, session);
+        Layer layer = original;
+        change(layer);
+        EXPECT_NE(kept_by(layer, {}, session), first);
+        EXPECT_NE(kept_by(original, {}, session), first);  // the old one is gone; this is a third
+        EXPECT_EQ(session.pyramid->hash(), first->hash());
+    }
+}
+
+TEST(KeptPyramid, IsNeverReusedAfterAChangeOfItsOptions) {
+    Layer layer = small_layer();
+    layer.faux_edges.assign(layer.mesh.faces.size(), 7);
+    layer.selected_edges.assign(layer.mesh.faces.size(), 0);
+    const std::vector<std::function<void(PyramidOptions&)>> changes{
+        [](PyramidOptions& o) { o.scheme = Scheme::roy; },
+        [](PyramidOptions& o) { o.op = Operator::cotangent; },
+        [](PyramidOptions& o) { o.presmooth = 0.25; },
+        [](PyramidOptions& o) { o.grouping = Grouping::sequential; },
+        [](PyramidOptions& o) { o.sets_per_level = 2; },
+        [](PyramidOptions& o) { o.level_ratio = 0.5; },
+        [](PyramidOptions& o) { o.base_vertices = 99; },
+        [](PyramidOptions& o) { o.length_weight = 0.2; },
+        [](PyramidOptions& o) { o.normal_limit = 61; },
+        [](PyramidOptions& o) { o.features = Features::angle; },
+        [](PyramidOptions& o) { o.features = Features::non_faux_edges; },
+        [](PyramidOptions& o) { o.features = Features::selected_edges; },
+    };
+    std::set<KeptPyramid::Hash> hashes{content_hash(layer, {})};
+    for (const auto& change : changes) {
+        PyramidOptions options;
+        change(options);
+        Session session;
+        const auto first = kept_by(layer, {}, session);
+        EXPECT_NE(kept_by(layer, options, session), first);
+        EXPECT_TRUE(hashes.insert(session.pyramid->hash()).second);
+    }
+    PyramidOptions options;
+    options.features = Features::angle;
+    options.feature_angle = 41;
+    EXPECT_TRUE(hashes.insert(content_hash(layer, options)).second);
+    options.features = Features::selected_edges;
+    layer.selected_edges[8] = 2;
+    EXPECT_TRUE(hashes.insert(content_hash(layer, options)).second);
+    options.features = Features::non_faux_edges;
+    layer.faux_edges[8] = 2;
+    EXPECT_TRUE(hashes.insert(content_hash(layer, options)).second);
+}
+
+TEST(KeptPyramid, RefusesOptionsOutOfRange) {
+    const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    std::vector<PyramidOptions> wrong;
+    const auto add = [&](auto PyramidOptions::*field, auto bad) {
+        wrong.emplace_back();
+        wrong.back().*field = bad;
+    };
+    for (const double x : {-0.1, 1.1, nan}) add(&PyramidOptions::presmooth, x);
+    for (const double x : {-0.1, 1.0, nan}) add(&PyramidOptions::level_ratio, x);
+    for (const double x : {-0.1, inf, nan}) add(&PyramidOptions::length_weight, x);
+    for (const double x : {0.0, -5.0, 180.5, nan}) add(&PyramidOptions::normal_limit, x);
+    for (const int x : {0, -1}) add(&PyramidOptions::sets_per_level, x);
+    for (const int x : {3, 0, -100}) add(&PyramidOptions::base_vertices, x);
+    for (const Features x : {Features::non_faux_edges, Features::selected_edges}) add(&PyramidOptions::features, x);
+    for (const double x : {0.0, 180.0, nan}) {
+        add(&PyramidOptions::feature_angle, x);
+        wrong.back().features = Features::angle;
+    }
+    const Layer layer = small_layer();
+    for (std::size_t i = 0; i < wrong.size(); ++i) {
+        Session session;
+        Report report;
+        EXPECT_THROW(pyramid_of(layer, wrong[i], session, report), InputError) << "case " << i;
+        EXPECT_FALSE(session.pyramid);
+    }
+}
+
+TEST(ComputePyramid, ItsTableIsThatOfTheLevels) {
+    const std::vector<std::pair<std::string, Mesh>> regular{{"scan", shapes::scan(3000)},
+                                                            {"sphere", shapes::irregular_sphere(2000)},
+                                                            {"terrain", shapes::terrain(40).mesh}};
+    for (const auto& [name, mesh] : regular) {
+        SCOPED_TRACE(name);
+        Session session;
+        const Layer layer = layer_of(mesh);
+        const Result result = compute_pyramid(layer, {}, session);
+        EXPECT_FALSE(result.positions || result.quality || result.layer);
+        const auto vertices = series(result.report, "vertices"), wavelength = series(result.report, "wavelength");
+        const auto detail = series(result.report, "rms_detail");
+        const std::size_t rows = count(result.report, "levels") + 1;
+        ASSERT_EQ(vertices.size(), rows);
+        ASSERT_EQ(wavelength.size(), rows);
+        ASSERT_EQ(detail.size(), rows);
+        const Hierarchy& h = session.pyramid->hierarchy();
+        for (std::size_t k = 0; k < rows; ++k) {
+            EXPECT_EQ(vertices[k], h.size[k]);
+            const double mean = mean_edge_length(level_mesh(h, mesh.faces, k).faces, h.positions);
+            EXPECT_NEAR(wavelength[k], 2 * mean,
+                        (name == "terrain" ? 0.1 : 1e-12) * mean);  // boundary edges count half
+            if (k == 0) continue;
+            EXPECT_LT(vertices[k], vertices[k - 1]);
+            EXPECT_GT(wavelength[k], wavelength[k - 1]);
+            EXPECT_GT(detail[k - 1], 0);
+        }
+        EXPECT_LE(number(result.report, "reconstruction_error"), 1e-13);
+    }
+}
+
+TEST(ComputePyramid, OneVertexPerLevelGivesAShortTable) {
+    ComputePyramidOptions options;
+    options.pyramid.grouping = Grouping::sequential;
+    Session session;
+    const Mesh mesh = shapes::scan(1500);
+    const Result result = compute_pyramid(layer_of(mesh), options, session);
+    EXPECT_EQ(count(result.report, "levels"), static_cast<int>(mesh.positions.size()) - 100);
+    const auto vertices = series(result.report, "vertices");
+    EXPECT_LE(vertices.size(), 130u);
+    EXPECT_EQ(vertices.front(), mesh.positions.size());
+    EXPECT_EQ(vertices.back(), 100);
+    // Wavelengths between the measured levels follow the true ones.
+    const auto& levels = session.pyramid->levels();
+    const Hierarchy& h = session.pyramid->hierarchy();
+    for (std::size_t k = 0; k < levels.size(); k += 50) {
+        const double mean = mean_edge_length(level_mesh(h, mesh.faces, k).faces, h.positions);
+        EXPECT_NEAR(levels[k].wavelength, 2 * mean, 0.02 * mean) << "level " << k;
+    }
+}
+
+TEST(ComputePyramid, CountsWhatIsUnusualOnEveryClass) {
+    for (const auto& [name, mesh] : every_class()) {
+        SCOPED_TRACE(name);
+        Session session;
+        const Result result = compute_pyramid(layer_of(mesh), {}, session);
+        const InputCounts counts = count_input(mesh);
+        EXPECT_EQ(count(result.report, "locked_vertices"), counts.non_manifold_vertices);
+        EXPECT_EQ(count(result.report, "unreferenced_vertices"), counts.unreferenced_vertices);
+        EXPECT_EQ(count(result.report, "duplicate_vertices"), counts.duplicate_vertices);
+        EXPECT_EQ(count(result.report, "degenerate_faces"), counts.degenerate_faces + counts.zero_area_faces);
+        EXPECT_EQ(count(result.report, "duplicate_faces"), counts.duplicate_faces);
+        EXPECT_EQ(count(result.report, "non_manifold_edges"), counts.non_manifold_edges);
+        EXPECT_EQ(count(result.report, "boundary_loops"), counts.boundary_loops);
+        EXPECT_EQ(count(result.report, "components"), counts.components);
+        EXPECT_LE(number(result.report, "reconstruction_error"), 1e-12 * bounding_box(mesh.positions).diagonal());
+        for (const double w : series(result.report, "wavelength")) EXPECT_TRUE(std::isfinite(w));
+    }
+}
+
+TEST(GenerateLevel, IsASubsetOfTheInput) {
+    for (const auto& [name, mesh] : every_class()) {
+        SCOPED_TRACE(name);
+        const Layer layer = layer_of(mesh);
+        Session session;
+        GenerateLevelOptions options;
+        options.pyramid.base_vertices = 10;
+        Report ignored;
+        const int last = static_cast<int>(pyramid_of(layer, options.pyramid, session, ignored)->levels().size()) - 1;
+        for (options.level = 0; options.level <= last; options.level += std::max(1, last / 3)) {
+            const Result result = generate_level(layer, options, session);
+            ASSERT_TRUE(result.layer && !result.positions);
+            const DerivedMesh& derived = *result.layer;
+            EXPECT_FALSE(derived.positions);
+            const auto n = static_cast<Index>(derived.source_vertex.size());
+            EXPECT_EQ(count(result.report, "vertices"), n);
+            EXPECT_EQ(count(result.report, "faces"), static_cast<int>(derived.faces.size()));
+            const std::set<Index> sources(derived.source_vertex.begin(), derived.source_vertex.end());
+            EXPECT_EQ(static_cast<Index>(sources.size()), n);
+            EXPECT_TRUE(*sources.begin() >= 0 && *sources.rbegin() < static_cast<Index>(mesh.positions.size()));
+            ASSERT_EQ(derived.source_face.size(), derived.faces.size());
+            for (std::size_t f = 0; f < derived.faces.size(); ++f) {
+                EXPECT_LT(derived.source_face[f], static_cast<Index>(mesh.faces.size()));
+                for (const Index v : derived.faces[f]) EXPECT_TRUE(v >= 0 && v < n);
+            }
+            options.smoothed = true;
+            const Result smoothed = generate_level(layer, options, session);
+            ASSERT_TRUE(smoothed.layer->positions);
+            EXPECT_EQ(static_cast<Index>(smoothed.layer->positions->size()), n);
+            EXPECT_EQ(smoothed.layer->faces, derived.faces);
+            options.smoothed = false;
+        }
+        options.level = last + 1;
+        EXPECT_THROW(generate_level(layer, options, session), InputError);
+        options.level = -1;
+        EXPECT_THROW(generate_level(layer, options, session), InputError);
+    }
+}
+
+}  // namespace multires
