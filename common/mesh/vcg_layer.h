@@ -94,32 +94,34 @@ template <class M>
 void copy_faces(const M& mesh, const std::vector<Index>& flat_vertex, VcgLayer& out) {
     out.layer.mesh.faces.reserve(mesh.fn);
     out.host_face.reserve(mesh.fn);
-    std::vector<std::uint8_t> selected, faux;
-    selected.reserve(mesh.fn);
-    faux.reserve(mesh.fn);
-    bool any_selected = false, any_faux = false;
+    std::vector<std::uint8_t> selected, faux, selected_edges;
+    for (auto* bits : {&selected, &faux, &selected_edges}) bits->reserve(mesh.fn);
     for (std::size_t i = 0; i < mesh.face.size(); ++i) {
         const auto& f = mesh.face[i];
         if (f.IsD()) continue;
         Face corners;
-        int bits = 0;
+        int faux_bits = 0, edge_bits = 0;
         for (int k = 0; k < 3; ++k) {
             const Index at = array_index(mesh, f.cV(k));
             if (at < 0 || flat_vertex[at] < 0)
                 throw InputError("Face " + std::to_string(i) + " refers to a vertex that " +
                                  (at < 0 ? "is not in the mesh." : "was deleted.") + " Nothing was changed.");
             corners[k] = flat_vertex[at];
-            bits |= f.IsF(k) ? 1 << k : 0;
+            faux_bits |= f.IsF(k) ? 1 << k : 0;
+            edge_bits |= f.IsFaceEdgeS(k) ? 1 << k : 0;
         }
         out.layer.mesh.faces.push_back(corners);
         out.host_face.push_back(static_cast<Index>(i));
         selected.push_back(f.IsS());
-        faux.push_back(static_cast<std::uint8_t>(bits));
-        any_selected = any_selected || f.IsS();
-        any_faux = any_faux || bits != 0;
+        faux.push_back(static_cast<std::uint8_t>(faux_bits));
+        selected_edges.push_back(static_cast<std::uint8_t>(edge_bits));
     }
-    if (any_selected) out.layer.selected_face = std::move(selected);
-    if (any_faux) out.layer.faux_edges = std::move(faux);
+    const auto any = [](const std::vector<std::uint8_t>& bits) {
+        return std::any_of(bits.begin(), bits.end(), [](std::uint8_t b) { return b != 0; });
+    };
+    if (any(selected)) out.layer.selected_face = std::move(selected);
+    if (any(faux)) out.layer.faux_edges = std::move(faux);
+    if (any(selected_edges)) out.layer.selected_edges = std::move(selected_edges);
 }
 
 /// An attribute with `value(vertex, k)` at the host's vertices.

@@ -100,6 +100,7 @@ TYPED_TEST(VcgConversion, RoundTripIsExact) {
     EXPECT_TRUE(flat.layer.selected_vertex.empty());
     EXPECT_TRUE(flat.layer.selected_face.empty());
     EXPECT_TRUE(flat.layer.faux_edges.empty());
+    EXPECT_TRUE(flat.layer.selected_edges.empty());
 
     TypeParam expected;
     fill(expected);
@@ -148,15 +149,17 @@ TYPED_TEST(VcgConversion, FaceOfDeletedOrForeignVertexIsAnError) {
     EXPECT_THROW(to_layer(this->mesh), InputError);
 }
 
-TYPED_TEST(VcgConversion, SelectionAndFauxBitsAreRead) {
+TYPED_TEST(VcgConversion, SelectionFauxAndSelectedEdgesAreRead) {
     this->mesh.vert[2].SetS();
     this->mesh.face[1].SetS();
     this->mesh.face[3].SetF(0);
     this->mesh.face[3].SetF(2);
+    this->mesh.face[2].SetFaceEdgeS(1);
     const Layer layer = to_layer(this->mesh).layer;
     EXPECT_EQ(layer.selected_vertex, (std::vector<std::uint8_t>{0, 0, 1, 0, 0, 0}));
     EXPECT_EQ(layer.selected_face, (std::vector<std::uint8_t>{0, 1, 0, 0}));
     EXPECT_EQ(layer.faux_edges, (std::vector<std::uint8_t>{0, 0, 0, 5}));
+    EXPECT_EQ(layer.selected_edges, (std::vector<std::uint8_t>{0, 0, 2, 0}));
 }
 
 TYPED_TEST(VcgConversion, ColorsAreRoundedOnceAndClamped) {
