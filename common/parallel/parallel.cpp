@@ -13,6 +13,9 @@ namespace {
 
 thread_local bool inside_loop = false;
 
+/// Without overflow for any count > 0.
+Index chunks_of(Index count, Index grain) { return (count - 1) / grain + 1; }
+
 /// One loop: chunks are taken from a counter until none is left.
 struct Job {
     const void* body;
@@ -24,10 +27,10 @@ struct Job {
 
     void work(std::mutex& mutex) {
         inside_loop = true;
-        const Index chunks = (count + grain - 1) / grain;
+        const Index chunks = chunks_of(count, grain);
         for (Index c; (c = next.fetch_add(1, std::memory_order_relaxed)) < chunks;) {
             try {
-                chunk(body, c * grain, std::min(count, (c + 1) * grain));
+                chunk(body, c * grain, c * grain + std::min(grain, count - c * grain));
             } catch (...) {
                 const std::lock_guard<std::mutex> lock(mutex);
                 if (!failure) failure = std::current_exception();
@@ -125,8 +128,7 @@ void set_thread_count(int count) { wanted = std::clamp(count, 0, 256); }
 
 void parallel_detail::run(Index count, Index grain, const void* body, Chunk chunk) {
     if (count <= 0) return;
-    const int threads =
-        inside_loop ? 1 : static_cast<int>(std::min<Index>(thread_count(), (count + grain - 1) / grain));
+    const int threads = inside_loop ? 1 : static_cast<int>(std::min<Index>(thread_count(), chunks_of(count, grain)));
     if (threads <= 1) {
         for (Index begin = 0; begin < count; begin += std::min(grain, count - begin))
             chunk(body, begin, begin + std::min(grain, count - begin));
