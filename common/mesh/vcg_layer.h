@@ -233,27 +233,31 @@ void write_quality(M& mesh, const VcgLayer& flat, const std::vector<double>& val
         mesh.vert[flat.host_vertex[i]].Q() = static_cast<Quality>(values[i]);
 }
 
+template <int n>
+using Components = std::integral_constant<int, n>;
+
 template <class M>
 void write_attribute(M& mesh, const VcgLayer& flat, const Attribute& a) noexcept {
     const double* value = a.values.data();
-    const auto each = [&](auto assign) {
+    const auto each = [&](auto components, auto assign) {  // a.width is `components`, checked before
         for (Index i : flat.host_vertex)
-            for (int k = 0; k < a.width; ++k) assign(i, k, *value++);
+            for (int k = 0; k < components; ++k) assign(i, k, *value++);
     };
     switch (a.kind) {
     case AttributeKind::quality:
         return write_quality(mesh, flat, a.values);
     case AttributeKind::color:
-        return each([&](Index i, int k, double x) { mesh.vert[i].C()[k] = to_byte(x); });
+        return each(Components<4>(), [&](Index i, int k, double x) { mesh.vert[i].C()[k] = to_byte(x); });
     case AttributeKind::texcoord:
-        return each([&](Index i, int k, double x) {
+        return each(Components<2>(), [&](Index i, int k, double x) {
             auto& t = mesh.vert[i].T();
             (k == 0 ? t.U() : t.V()) = static_cast<std::decay_t<decltype(t.U())>>(x);
         });
     case AttributeKind::scalar:
     case AttributeKind::point:
         visit<typename M::VertContainer>(*find_custom(mesh, a.name), LayerTypes(), [&](auto& data) {
-            each([&](Index i, int k, double x) { set_component(data[i], k, x); });
+            constexpr int components = width<ValueOf<decltype(data)>>;
+            each(Components<components>(), [&](Index i, int k, double x) { set_component(data[i], k, x); });
         });
     }
 }
