@@ -20,6 +20,7 @@ DETAIL = "compute_scalar_multires_detail_per_vertex"
 LOW_PASS, STOP_BAND = "apply_coord_multires_low_pass", "apply_coord_multires_stop_band"
 ENHANCE, EQUALIZER = "apply_coord_multires_enhance", "apply_coord_multires_equalizer"
 UNSHARP = "apply_coord_multires_unsharp"
+NEW_LAYER = [LEVEL, "generate_multires_adaptive_reconstruction"]
 MOVING = [name for name in FILTER_IDS if name.startswith("apply_coord")]
 WITH_PYRAMID = [name for name in FILTER_IDS if name != UNSHARP]
 
@@ -115,7 +116,7 @@ def check_outcome(ms, name, before, report):
         assert report["rms_displacement"] == pytest.approx(np.sqrt((moved**2).mean()), rel=1e-9, abs=1e-300)
         unused = np.setdiff1d(np.arange(len(old)), before["meshes"][here]["faces"])
         np.testing.assert_array_equal(new[unused], old[unused])
-    assert len(after["meshes"]) == len(before["meshes"]) + (name == LEVEL)
+    assert len(after["meshes"]) == len(before["meshes"]) + (name in NEW_LAYER)
 
 
 # ---- bad and unusual input -------------------------------------------------------------------------------------------

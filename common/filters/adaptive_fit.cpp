@@ -1,0 +1,197 @@
+#include "filters/adaptive.h"
+
+#include "measure/distance.h"
+#include "parallel/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+// Where the vertices of a reconstruction fit the input best.
+
+namespace multires {
+namespace {
+
+/// Closest point of an input vertex: a face and its barycentric coordinates.
+struct Foot {
+    Index face = -1;
+    Vec3 share = Vec3::Zero();
+    double weight = 0;
+};
+
+Vec3 barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const Vec3 ab = b - a, ac = c - a, n = ab.cross(ac), ap = p - a;
+    const double nn = n.squaredNorm();
+    if (!(nn > 0)) return Vec3::Constant(1 / 3.0);
+    const double v = std::clamp(ap.cross(ac).dot(n) / nn, 0.0, 1.0);
+    const double w = std::clamp(ab.cross(ap).dot(n) / nn, 0.0, 1.0 - v);
+    return {1 - v - w, v, w};
+}
+
+/// Third of the area of the faces around each vertex.
+std::vector<double> vertex_areas(const Mesh& mesh) {
+    std::vector<double> area(mesh.positions.size(), 0);
+    for (const Face& f : mesh.faces) {
+        const Vec3& a = mesh.positions[f[0]];
+        const double share = (mesh.positions[f[1]] - a).cross(mesh.positions[f[2]] - a).norm() / 6;
+        for (const Index v : f) area[v] += share;
+    }
+    return area;
+}
+
+/// Vertices with an edge of other than two faces, or without faces.
+void fix_boundary(const Faces& faces, std::vector<std::uint8_t>& fixed) {
+    std::vector<std::pair<Index, Index>> edges;
+    std::vector<std::uint8_t> held(fixed.size(), 0);
+    for (const Face& f : faces)
+        for (int k = 0; k < 3; ++k) {
+            held[f[k]] = 1;
+            edges.push_back(std::minmax(f[k], f[(k + 1) % 3]));
+        }
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0; i < edges.size();) {
+        std::size_t end = i + 1;
+        while (end < edges.size() && edges[end] == edges[i]) ++end;
+        if (end - i != 2) fixed[edges[i].first] = fixed[edges[i].second] = 1;
+        i = end;
+    }
+    for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] |= !held[v];
+}
+
+/// Least squares for displacements x of the vertices: sum of weight |B x - gap|^2 + stiffness weight_v |x_v|^2, by
+/// conjugate gradients with a diagonal preconditioner.
+class Solver {
+public:
+    Solver(const Faces& faces, const std::vector<Foot>& feet, const std::vector<std::uint8_t>& fixed, Index vertices)
+        : faces_(faces), feet_(feet), fixed_(fixed), diagonal_(vertices, 0) {
+        std::vector<double> mass(vertices, 0);
+        for (const Foot& foot : feet_)
+            if (foot.face >= 0)
+                for (int k = 0; k < 3; ++k) {
+                    mass[faces_[foot.face][k]] += foot.weight * foot.share[k];
+                    diagonal_[faces_[foot.face][k]] += foot.weight * foot.share[k] * foot.share[k];
+                }
+        double mean = 0;
+        for (const double m : mass) mean += m;
+        mean /= std::max<Index>(1, vertices);
+        constexpr double stiffness = 0.02;
+        for (Index v = 0; v < vertices; ++v) {
+            spring_.push_back(stiffness * mass[v] + 1e-3 * stiffness * mean);
+            diagonal_[v] += spring_[v];
+        }
+    }
+
+    Positions solve(const Positions& gap, int steps) const {
+        Positions x(diagonal_.size(), Vec3::Zero()), r = transposed(gap), z = preconditioned(r), d = z;
+        double rz = dot(r, z);
+        const double enough = 1e-8 * rz;
+        for (int i = 0; i < steps && rz > enough; ++i) {
+            const Positions ad = apply(d);
+            const double along = dot(d, ad);
+            if (!(along > 0)) break;
+            const double alpha = rz / along;
+            for (std::size_t v = 0; v < x.size(); ++v) x[v] += alpha * d[v], r[v] -= alpha * ad[v];
+            z = preconditioned(r);
+            const double next = dot(r, z), beta = next / rz;
+            rz = next;
+            for (std::size_t v = 0; v < x.size(); ++v) d[v] = z[v] + beta * d[v];
+        }
+        return x;
+    }
+
+private:
+    Positions transposed(const Positions& rows) const {
+        Positions out(diagonal_.size(), Vec3::Zero());
+        for (std::size_t i = 0; i < feet_.size(); ++i)
+            if (feet_[i].face >= 0)
+                for (int k = 0; k < 3; ++k)
+                    out[faces_[feet_[i].face][k]] += feet_[i].weight * feet_[i].share[k] * rows[i];
+        for (std::size_t v = 0; v < out.size(); ++v)
+            if (fixed_[v]) out[v] = Vec3::Zero();
+        return out;
+    }
+    Positions apply(const Positions& x) const {
+        Positions rows(feet_.size(), Vec3::Zero());
+        parallel_for(static_cast<Index>(rows.size()), [&](Index i) {
+            if (feet_[i].face >= 0)
+                for (int k = 0; k < 3; ++k) rows[i] += feet_[i].share[k] * x[faces_[feet_[i].face][k]];
+        });
+        Positions out = transposed(rows);
+        for (std::size_t v = 0; v < out.size(); ++v)
+            if (!fixed_[v]) out[v] += spring_[v] * x[v];
+        return out;
+    }
+    Positions preconditioned(Positions r) const {
+        for (std::size_t v = 0; v < r.size(); ++v) r[v] /= std::max(diagonal_[v], 1e-300);
+        return r;
+    }
+    static double dot(const Positions& a, const Positions& b) {
+        double sum = 0;
+        for (std::size_t v = 0; v < a.size(); ++v) sum += a[v].dot(b[v]);
+        return sum;
+    }
+
+    const Faces& faces_;
+    const std::vector<Foot>& feet_;
+    const std::vector<std::uint8_t>& fixed_;
+    std::vector<double> diagonal_, spring_;
+};
+
+/// Takes displacements back, half by half, until no face turns by more than 60 degrees or shrinks to nothing.
+Positions without_flips(const Faces& faces, const Positions& before, Positions move) {
+    constexpr int halvings = 6;
+    std::vector<std::uint8_t> times(before.size(), 0);
+    for (bool again = true; again;) {
+        again = false;
+        std::vector<std::uint8_t> bad(before.size(), 0);
+        for (const Face& f : faces) {
+            const Vec3 n = (before[f[1]] - before[f[0]]).cross(before[f[2]] - before[f[0]]);
+            const Vec3 a = before[f[0]] + move[f[0]];
+            const Vec3 m = (before[f[1]] + move[f[1]] - a).cross(before[f[2]] + move[f[2]] - a);
+            const double nn = n.norm(), mm = m.norm();
+            if (n.dot(m) >= 0.5 * nn * mm && mm >= 0.2 * nn) continue;
+            for (const Index v : f) bad[v] = 1;
+        }
+        for (std::size_t v = 0; v < bad.size(); ++v) {
+            if (!bad[v] || move[v].isZero(0)) continue;
+            move[v] = ++times[v] < halvings ? Vec3(move[v] / 2) : Vec3(Vec3::Zero());
+            again = true;
+        }
+    }
+    for (std::size_t v = 0; v < move.size(); ++v) move[v] += before[v];
+    return move;
+}
+
+}  // namespace
+
+Positions fitted(const Mesh& input, const Faces& faces, const Positions& positions,
+                 const std::vector<std::uint8_t>& fixed) {
+    std::vector<std::uint8_t> stay = fixed;
+    fix_boundary(faces, stay);
+    const std::vector<double> area = vertex_areas(input);
+    const Index points = static_cast<Index>(input.positions.size());
+    Positions now = positions;
+    constexpr int rounds = 3, steps = 12;
+    for (int round = 0; round < rounds; ++round) {
+        const SurfaceTree tree(faces, now);
+        std::vector<Foot> feet(points);
+        Positions gap(points, Vec3::Zero());
+        parallel_chunks(points, 1024, [&](Index begin, Index end) {
+            Index hint = -1;
+            for (Index i = begin; i < end; ++i) {
+                if (!(area[i] > 0)) continue;
+                const SurfaceTree::Hit hit = tree.closest(input.positions[i], hint);
+                hint = hit.face;
+                const Face& f = faces[hit.face];
+                feet[i] = {hit.face, barycentric(hit.point, now[f[0]], now[f[1]], now[f[2]]), area[i]};
+                gap[i] = input.positions[i] - hit.point;
+            }
+        });
+        Positions move = Solver(faces, feet, stay, static_cast<Index>(now.size())).solve(gap, steps);
+        for (std::size_t v = 0; v < move.size(); ++v) move[v] += now[v] - positions[v];
+        now = without_flips(faces, positions, std::move(move));
+    }
+    return now;
+}
+
+}  // namespace multires

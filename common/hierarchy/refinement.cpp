@@ -1,0 +1,60 @@
+#include "hierarchy/refinement.h"
+
+#include "parallel/parallel.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace multires {
+
+Index Insertion::count(double threshold) const {
+    const auto end =
+        std::partition_point(order.begin(), order.end(), [&](Index place) { return key[place] >= threshold; });
+    return static_cast<Index>(end - order.begin());
+}
+
+Insertion insertion_order(const Hierarchy& h, std::vector<double> importance) {
+    Insertion out;
+    out.key = std::move(importance);
+    out.faces.assign(h.vertices(), 0);
+    for (const Level& level : h.levels)
+        for (Index r = level.odd.rows() - 1; r >= 0; --r) {  // later places depend on earlier ones
+            const double key = out.key[level.odd.vertex(r)];
+            out.faces[level.odd.vertex(r)] = level.odd.kind[r] == RingKind::closed ? 2 : 1;
+            const Index* const ring = level.odd.begin(r);
+            for (Index j = 0; j < level.odd.size(r); ++j) out.key[ring[j]] = std::max(out.key[ring[j]], key);
+        }
+    const Index base = h.size.back();
+    std::fill_n(out.key.begin(), base, std::numeric_limits<double>::infinity());
+    out.order.resize(h.vertices());
+    std::iota(out.order.begin(), out.order.end(), 0);
+    // Equal keys in order of places, which dependencies follow.
+    std::sort(out.order.begin() + base, out.order.end(),
+              [&](Index a, Index b) { return out.key[a] != out.key[b] ? out.key[a] > out.key[b] : a < b; });
+    return out;
+}
+
+std::vector<std::uint8_t> inserted(const Insertion& insertion, Index count) {
+    std::vector<std::uint8_t> in(insertion.order.size(), 0);
+    for (Index i = 0; i < count; ++i) in[insertion.order[i]] = 1;
+    return in;
+}
+
+LevelMesh mesh_of_set(const Hierarchy& h, const Faces& faces, const std::vector<std::uint8_t>& in) {
+    std::vector<Index> gone_to(h.vertices()), of_input(h.vertices());
+    for (Index p = 0; p < h.vertices(); ++p) gone_to[p] = in[p] ? p : gone_to[h.parent[p]];
+    parallel_for(h.vertices(), [&](Index p) { of_input[h.order[p]] = gone_to[p]; });
+    LevelMesh mesh;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const Face& was = faces[f];
+        const Face g = {of_input[was[0]], of_input[was[1]], of_input[was[2]]};
+        const bool degenerate = g[0] == g[1] || g[1] == g[2] || g[2] == g[0];
+        if (degenerate && (h.order[g[0]] != was[0] || h.order[g[1]] != was[1] || h.order[g[2]] != was[2])) continue;
+        mesh.faces.push_back(g);
+        mesh.source_face.push_back(static_cast<Index>(f));
+    }
+    return mesh;
+}
+
+}  // namespace multires
