@@ -48,9 +48,9 @@ struct AdaptiveOptions {
     int vertices = 500;                     ///< >= 0, for Target::vertices; unreferenced ones are not counted
     double error = 0.1;                     ///< > 0, in `unit`, for the distance targets
     Criterion criterion = Criterion::area_error;
-    Operator op = Operator::cotangent_clamped;  ///< predicts attributes, and positions for Criterion::detail
-    bool region_of_interest = false;            ///< selected vertices and faces are kept whatever their details
-    bool fit = false;                           ///< move the vertices kept to where they fit the input best
+    Operator op = Operator::cotangent_delaunay;  ///< predicts attributes, and positions for Criterion::detail
+    bool region_of_interest = false;             ///< selected vertices and faces are kept whatever their details
+    bool fit = false;                            ///< move the vertices kept to where they fit the input best
     /// Gain of a band of details, applied to the input before anything else; 1: none.
     double band_gain = 1;
     Band band;
@@ -82,8 +82,8 @@ Hierarchy adaptive_hierarchy(const Layer& layer, const AdaptiveOptions& options,
 std::vector<double> importance(const Layer& layer, const Hierarchy& hierarchy, const AdaptiveOptions& options);
 
 /// Moves the vertices of a reconstruction to where they fit the input best: least squares over the closest points of
-/// the input's vertices. No face turns by more than 60 degrees against where it was; boundary vertices stay, as do
-/// those that no face holds and those marked `fixed`. See adaptive_fit.cpp.
+/// the input's vertices. No face turns by more than 60 degrees against where it was; vertices without a
+/// closed ring stay (boundary, non-manifold, in no face), as do those marked `fixed`. See adaptive_fit.cpp.
 /// @param positions  #V', of the vertices that `faces` refers to
 Positions fitted(const Mesh& input, const Faces& faces, const Positions& positions,
                  const std::vector<std::uint8_t>& fixed);

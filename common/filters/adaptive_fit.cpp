@@ -1,11 +1,11 @@
 #include "filters/adaptive.h"
 
 #include "measure/distance.h"
+#include "mesh/adjacency.h"
 #include "parallel/parallel.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 // Where the vertices of a reconstruction fit the input best.
 
@@ -37,25 +37,6 @@ std::vector<double> vertex_areas(const Mesh& mesh) {
         for (const Index v : f) area[v] += share;
     }
     return area;
-}
-
-/// Vertices with an edge of other than two faces, or without faces.
-void fix_boundary(const Faces& faces, std::vector<std::uint8_t>& fixed) {
-    std::vector<std::pair<Index, Index>> edges;
-    std::vector<std::uint8_t> held(fixed.size(), 0);
-    for (const Face& f : faces)
-        for (int k = 0; k < 3; ++k) {
-            held[f[k]] = 1;
-            edges.push_back(std::minmax(f[k], f[(k + 1) % 3]));
-        }
-    std::sort(edges.begin(), edges.end());
-    for (std::size_t i = 0; i < edges.size();) {
-        std::size_t end = i + 1;
-        while (end < edges.size() && edges[end] == edges[i]) ++end;
-        if (end - i != 2) fixed[edges[i].first] = fixed[edges[i].second] = 1;
-        i = end;
-    }
-    for (std::size_t v = 0; v < fixed.size(); ++v) fixed[v] |= !held[v];
 }
 
 /// Least squares for displacements x of the vertices: sum of weight |B x - gap|^2 + stiffness weight_v |x_v|^2, by
@@ -167,7 +148,8 @@ Positions without_flips(const Faces& faces, const Positions& before, Positions m
 Positions fitted(const Mesh& input, const Faces& faces, const Positions& positions,
                  const std::vector<std::uint8_t>& fixed) {
     std::vector<std::uint8_t> stay = fixed;
-    fix_boundary(faces, stay);
+    const Rings rings = vertex_rings({positions, faces});
+    for (std::size_t v = 0; v < stay.size(); ++v) stay[v] |= rings.kind[v] != RingKind::closed;
     const std::vector<double> area = vertex_areas(input);
     const Index points = static_cast<Index>(input.positions.size());
     Positions now = positions;

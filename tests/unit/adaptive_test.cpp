@@ -1,0 +1,588 @@
+#include "filters/adaptive.h"
+
+#include "hierarchy_checks.h"
+#include "measure/distance.h"
+#include "measure/measure.h"
+
+#include <cmath>
+#include <limits>
+
+using namespace multires;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Layer layer_of(const Mesh& mesh) {
+    Layer layer;
+    layer.mesh = mesh;
+    return layer;
+}
+
+AdaptiveOptions with_threshold(double percent) {
+    AdaptiveOptions o;
+    o.geometry.threshold = percent;
+    o.base_vertices = 8;
+    o.measure = false;
+    return o;
+}
+
+Result run(const Layer& layer, const AdaptiveOptions& o) {
+    Session session;
+    return adaptive_reconstruction(layer, o, session);
+}
+
+double value(const Result& r, const std::string& key) {
+    for (const Report::Entry& e : r.report.entries())
+        if (e.key == key)
+            return std::holds_alternative<int>(e.value) ? std::get<int>(e.value) : std::get<double>(e.value);
+    ADD_FAILURE() << "no " << key;
+    return 0;
+}
+
+Mesh mesh_of(const DerivedMesh& d, const Mesh& input) {
+    Mesh mesh;
+    mesh.faces = d.faces;
+    if (d.positions)
+        mesh.positions = *d.positions;
+    else
+        for (const Index v : d.source_vertex) mesh.positions.push_back(input.positions[v]);
+    return mesh;
+}
+
+std::set<Index> vertices_of(const Result& r) { return {r.layer->source_vertex.begin(), r.layer->source_vertex.end()}; }
+
+/// A mesh with the topology of the input, on its vertices.
+void expect_valid(const DerivedMesh& d, const Mesh& input) {
+    const Mesh mesh = mesh_of(d, input);
+    ASSERT_EQ(d.faces.size(), d.source_face.size());
+    ASSERT_TRUE(std::is_sorted(d.source_vertex.begin(), d.source_vertex.end()));
+    const InputCounts before = count_input(input), after = count_input(mesh);
+    EXPECT_EQ(fixtures::euler(mesh), fixtures::euler(input));
+    EXPECT_EQ(after.components, before.components);
+    EXPECT_EQ(after.boundary_loops, before.boundary_loops);
+    EXPECT_EQ(after.non_manifold_edges, before.non_manifold_edges);
+    EXPECT_EQ(after.non_manifold_vertices, before.non_manifold_vertices);
+    EXPECT_EQ(after.non_orientable_components, before.non_orientable_components);
+    EXPECT_EQ(after.duplicate_faces, before.duplicate_faces);
+    EXPECT_LE(after.inconsistent_edges, before.inconsistent_edges);
+    EXPECT_LE(after.zero_area_faces, before.zero_area_faces);
+}
+
+/// Executes the collapses of a closed set one by one: each must turn no face by more than the limit.
+void expect_collapses_allowed(const Hierarchy& h, const Mesh& mesh, const std::vector<std::uint8_t>& in, double limit) {
+    std::vector<std::uint8_t> now(h.vertices(), 1);
+    LevelMesh before = mesh_of_set(h, mesh.faces, now);
+    for (Index p = h.vertices() - 1; p >= 0; --p) {
+        if (in[p]) continue;
+        now[p] = 0;
+        LevelMesh after = mesh_of_set(h, mesh.faces, now);
+        for (std::size_t i = 0, j = 0; j < after.faces.size(); ++j) {
+            while (before.source_face[i] != after.source_face[j]) ++i;
+            const auto normal = [&](const Face& f) -> Vec3 {
+                return (h.positions[f[1]] - h.positions[f[0]]).cross(h.positions[f[2]] - h.positions[f[0]]);
+            };
+            const Vec3 n = normal(before.faces[i]), m = normal(after.faces[j]);
+            if (before.faces[i] == after.faces[j] || n.norm() < 1e-12) continue;
+            ASSERT_LE(std::atan2(n.cross(m).norm(), n.dot(m)) * 180 / std::acos(-1.0), limit + 1e-6);
+        }
+        before = std::move(after);
+    }
+}
+
+}  // namespace
+
+// ---- closed sets
+// -----------------------------------------------------------------------------------------------------
+
+TEST(Refinement, PrefixesOfTheOrderAreClosedAndNested) {
+    shapes::Random random(11);
+    for (const auto& [name, options] : fixtures::groupings()) {
+        SCOPED_TRACE(name);
+        const Mesh mesh = shapes::scan(600);
+        const Hierarchy h = fixtures::hierarchy_of(mesh, options);
+        std::vector<double> importance(h.vertices());
+        for (double& x : importance) x = random.chance(0.2) ? 1 : random.uniform(0, 1);  // with ties
+        const Insertion insertion = insertion_order(h, importance);
+        std::vector<Index> rank(h.vertices());
+        for (Index i = 0; i < h.vertices(); ++i) rank[insertion.order[i]] = i;
+        for (const Level& level : h.levels)
+            for (Index r = 0; r < level.odd.rows(); ++r) {
+                const Index p = level.odd.vertex(r);
+                ASSERT_GE(insertion.key[p], importance[p]);
+                for (Index j = 0; j < level.odd.size(r); ++j) ASSERT_LT(rank[level.odd.begin(r)[j]], rank[p]);
+            }
+        for (Index i = 1; i < h.vertices(); ++i)
+            ASSERT_GE(insertion.key[insertion.order[i - 1]], insertion.key[insertion.order[i]]);
+        EXPECT_EQ(insertion.count(0), h.vertices());
+        EXPECT_EQ(insertion.count(infinity), h.size.back());
+        EXPECT_EQ(insertion.count(2), h.size.back());
+    }
+}
+
+/// Any importance at all gives valid meshes, whatever the class of mesh and the grouping.
+TEST(Refinement, EveryClosedSetGivesTheTopologyOfTheInput) {
+    shapes::Random random(12);
+    for (const auto& [name, mesh] : fixtures::every_class())
+        for (const auto& [grouping, options] : fixtures::groupings()) {
+            SCOPED_TRACE(name + ", " + grouping);
+            const Hierarchy h = fixtures::hierarchy_of(mesh, options);
+            std::vector<double> importance(h.vertices());
+            for (double& x : importance) x = random.uniform(0, 1);
+            const Insertion insertion = insertion_order(h, importance);
+            Index faces =
+                static_cast<Index>(mesh_of_set(h, mesh.faces, inserted(insertion, h.size.back())).faces.size());
+            Index count = h.size.back();
+            for (const double share : {0.0, 0.1, 0.35, 0.7, 1.0}) {
+                const Index next = h.size.back() + static_cast<Index>(share * (h.vertices() - h.size.back()));
+                for (; count < next; ++count) faces += insertion.faces[insertion.order[count]];
+                const LevelMesh got = mesh_of_set(h, mesh.faces, inserted(insertion, count));
+                const Mesh now{h.positions, got.faces};
+                const InputCounts before = count_input(mesh), after = count_input(now);
+                if (before.degenerate_faces == 0) {
+                    ASSERT_EQ(static_cast<Index>(got.faces.size()), faces);
+                }
+                ASSERT_EQ(fixtures::euler(now), fixtures::euler(mesh));
+                ASSERT_EQ(after.components, before.components);
+                ASSERT_EQ(after.boundary_loops, before.boundary_loops);
+                ASSERT_EQ(after.non_manifold_edges, before.non_manifold_edges);
+                ASSERT_EQ(after.non_manifold_vertices, before.non_manifold_vertices);
+                ASSERT_EQ(after.duplicate_faces, before.duplicate_faces);
+            }
+        }
+}
+
+TEST(Refinement, CollapsesOutsideAClosedSetStayAllowed) {
+    shapes::Random random(13);
+    for (const auto& mesh : {shapes::irregular_sphere(300), shapes::plane(12), shapes::block(3)})
+        for (const auto& [grouping, options] : fixtures::groupings()) {
+            const Hierarchy h = fixtures::hierarchy_of(mesh, options);
+            std::vector<double> importance(h.vertices());
+            for (double& x : importance) x = random.uniform(0, 1);
+            const Insertion insertion = insertion_order(h, importance);
+            expect_collapses_allowed(h, mesh, inserted(insertion, h.vertices() / 3), options.normal_limit_degrees);
+        }
+}
+
+TEST(Refinement, PrefixesOfLevelsAreTheLevels) {
+    const Mesh mesh = shapes::scan(800);
+    const Hierarchy h = fixtures::hierarchy_of(mesh);
+    for (const Index size : h.size) {
+        std::vector<std::uint8_t> in(h.vertices(), 0);
+        std::fill_n(in.begin(), size, 1);
+        EXPECT_EQ(mesh_of_set(h, mesh.faces, in).faces, prefix_mesh(h, mesh.faces, size).faces);
+    }
+}
+
+// ---- thresholds
+// ------------------------------------------------------------------------------------------------------
+
+TEST(Adaptive, ThresholdZeroIsTheInputOnEveryClass) {
+    for (const auto& [name, mesh] : fixtures::every_class()) {
+        SCOPED_TRACE(name);
+        const Result r = run(layer_of(mesh), with_threshold(0));
+        EXPECT_EQ(r.layer->faces, mesh.faces);
+        ASSERT_EQ(r.layer->source_vertex.size(), mesh.positions.size());
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) ASSERT_EQ(r.layer->source_vertex[v], Index(v));
+        for (std::size_t f = 0; f < mesh.faces.size(); ++f) ASSERT_EQ(r.layer->source_face[f], Index(f));
+    }
+}
+
+TEST(Adaptive, ThresholdAboveEverythingIsTheBase) {
+    for (const auto& [name, mesh] : fixtures::every_class()) {
+        SCOPED_TRACE(name);
+        const AdaptiveOptions o = with_threshold(1e9);
+        const Result r = run(layer_of(mesh), o);
+        const Hierarchy h = adaptive_hierarchy(layer_of(mesh), o, Progress());
+        EXPECT_EQ(vertices_of(r), std::set<Index>(h.order.begin(), h.order.begin() + h.size.back()));
+        EXPECT_EQ(value(r, "vertices"), value(r, "base_vertices"));
+        EXPECT_EQ(value(r, "faces"), value(r, "base_faces"));
+    }
+}
+
+TEST(Adaptive, EveryThresholdGivesAValidMeshAndNestedVertices) {
+    for (const auto& [name, mesh] : fixtures::every_class())
+        for (const Criterion criterion : {Criterion::area_error, Criterion::local_error, Criterion::detail}) {
+            SCOPED_TRACE(name + ", criterion " + std::to_string(static_cast<int>(criterion)));
+            std::set<Index> finer;
+            for (const double threshold : {0.0, 1e-4, 0.01, 0.1, 0.5, 2.0, 10.0, 1e9}) {
+                AdaptiveOptions o = with_threshold(threshold);
+                o.criterion = criterion;
+                const Result r = run(layer_of(mesh), o);
+                expect_valid(*r.layer, mesh);
+                const std::set<Index> now = vertices_of(r);
+                if (threshold > 0) {
+                    EXPECT_TRUE(std::includes(finer.begin(), finer.end(), now.begin(), now.end()));
+                }
+                finer = now;
+            }
+        }
+}
+
+TEST(Adaptive, DamagedMeshesGiveValidMeshes) {
+    for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+        SCOPED_TRACE(seed);
+        const Mesh mesh = seed % 3 ? fixtures::damaged_mesh(seed) : fixtures::random_soup(seed);
+        for (const double threshold : {0.05, 1.0, 1e9}) {
+            AdaptiveOptions o = with_threshold(threshold);
+            o.base_vertices = 4;
+            try {
+                expect_valid(*run(layer_of(mesh), o).layer, mesh);
+            } catch (const InputError&) {
+            }
+        }
+    }
+}
+
+TEST(Adaptive, PlanesNeedNoVertices) {
+    const Result r = run(layer_of(shapes::plane(20)), with_threshold(0.001));
+    EXPECT_LE(value(r, "vertices"), 12);
+}
+
+TEST(Adaptive, DoesNotDependOnScalePlaceOrThreads) {
+    const Mesh mesh = shapes::scan(2000);
+    const Result here = run(layer_of(mesh), with_threshold(0.2));
+    for (const double scale : {1e-20, 1.0, 1e20}) {
+        fixtures::Motion motion;
+        motion.rotation.setIdentity();
+        motion.scale = scale;
+        motion.offset *= scale;
+        const fixtures::Threads threads(scale > 1 ? 1 : 3);
+        const Result there = run(layer_of(motion(mesh)), with_threshold(0.2));
+        EXPECT_NEAR(value(there, "vertices"), value(here, "vertices"), 0.02 * value(here, "vertices"));
+    }
+    const fixtures::Threads one(1);
+    EXPECT_EQ(run(layer_of(mesh), with_threshold(0.2)).layer->faces, here.layer->faces);
+}
+
+TEST(Adaptive, MeshUnitsAndPercentAgree) {
+    const Layer layer = layer_of(shapes::scan(1500));
+    AdaptiveOptions o = with_threshold(0.3 / 100 * box_diagonal(layer));
+    o.unit = LengthUnit::mesh;
+    EXPECT_EQ(run(layer, o).layer->faces, run(layer, with_threshold(0.3)).layer->faces);
+}
+
+// ---- targets
+// ---------------------------------------------------------------------------------------------------------
+
+TEST(Adaptive, MeetsFaceAndVertexCounts) {
+    for (const auto& mesh :
+         {shapes::scan(3000), shapes::plane(40), shapes::block(8), shapes::unreferenced_vertices()}) {
+        const Layer layer = layer_of(mesh);
+        AdaptiveOptions o = with_threshold(0);
+        for (const double share : {0.9, 0.5, 0.3}) {
+            o.target = Target::faces;
+            o.faces = static_cast<int>(share * static_cast<double>(mesh.faces.size()));
+            const double faces = value(run(layer, o), "faces");
+            EXPECT_LE(faces, o.faces);
+            EXPECT_GE(faces, o.faces - 1);
+            o.target = Target::vertices;
+            o.vertices = static_cast<int>(share * static_cast<double>(mesh.positions.size()));
+            const Result r = run(layer, o);
+            EXPECT_EQ(value(r, "vertices") - value(r, "unreferenced_vertices"), o.vertices);
+        }
+        o.target = Target::faces;
+        o.faces = 0;
+        const Result least = run(layer, o);
+        EXPECT_EQ(value(least, "faces"), value(least, "base_faces"));
+        o.faces = 1 << 30;
+        EXPECT_EQ(run(layer, o).layer->faces, mesh.faces);
+    }
+}
+
+TEST(Adaptive, TargetIsTheMeshOfTheThresholdItReports) {
+    const Layer layer = layer_of(shapes::scan(2000));
+    AdaptiveOptions o = with_threshold(7);
+    o.target = Target::faces;
+    o.faces = 600;
+    const Result r = run(layer, o);
+    const double threshold = value(r, "geometry_threshold_used");
+    // The target may cut between vertices that matter equally.
+    const auto at = [&](double factor) { return vertices_of(run(layer, with_threshold(threshold * factor))); };
+    const std::set<Index> here = vertices_of(r), finer = at(1 - 1e-9), coarser = at(1 + 1e-9);
+    EXPECT_TRUE(std::includes(finer.begin(), finer.end(), here.begin(), here.end()));
+    EXPECT_TRUE(std::includes(here.begin(), here.end(), coarser.begin(), coarser.end()));
+    EXPECT_LT(finer.size(), coarser.size() + 30);
+}
+
+TEST(Adaptive, HonoursErrorBounds) {
+    const Layer layer = layer_of(shapes::scan(3000));
+    for (const bool fit : {false, true})
+        for (const double percent : {0.05, 0.3, 50.0}) {
+            AdaptiveOptions o = with_threshold(1);
+            o.error = percent;
+            o.fit = fit;
+            o.target = Target::largest_distance;
+            const Result largest = run(layer, o);
+            EXPECT_LE(value(largest, "largest_distance_percent"), percent);
+            o.target = Target::rms_distance;
+            const Result rms = run(layer, o);
+            EXPECT_LE(value(rms, "rms_distance_percent"), percent);
+            EXPECT_LE(value(rms, "faces"), value(largest, "faces"));
+            if (percent == 50) {
+                EXPECT_EQ(value(largest, "faces"), value(largest, "base_faces"));
+            }
+            // What is reported is what is there.
+            const Mesh mesh = mesh_of(*rms.layer, layer.mesh);
+            const Distance d = two_sided_distance(layer.mesh.faces, layer.mesh.positions, mesh.faces, mesh.positions);
+            EXPECT_EQ(d.rms, value(rms, "rms_distance"));
+            EXPECT_EQ(d.largest, value(rms, "largest_distance"));
+        }
+}
+
+TEST(Adaptive, ErrorBoundsAreNotWasted) {
+    const Layer layer = layer_of(shapes::scan(5000));
+    AdaptiveOptions o = with_threshold(1);
+    o.target = Target::rms_distance;
+    o.error = 0.1;
+    EXPECT_GE(value(run(layer, o), "rms_distance_percent"), 0.095);
+}
+
+// ---- criteria
+// --------------------------------------------------------------------------------------------------------
+
+TEST(Adaptive, IsBetterThanTheLevelsOfThePyramid) {
+    const Layer layer = layer_of(shapes::scan(10000));
+    AdaptiveOptions o = with_threshold(1);
+    o.target = Target::faces;
+    o.faces = 2000;
+    o.measure = true;
+    const double adaptive = value(run(layer, o), "rms_distance");
+    const Hierarchy h = fixtures::hierarchy_of(layer.mesh);
+    const Mesh level = fixtures::mesh_of_prefix(h, layer.mesh, 1002);
+    const double uniform = two_sided_distance(layer.mesh.faces, layer.mesh.positions, level.faces, level.positions).rms;
+    EXPECT_LT(adaptive, 0.7 * uniform);
+    o.fit = true;
+    EXPECT_LT(value(run(layer, o), "rms_distance"), 0.85 * adaptive);
+}
+
+TEST(Adaptive, ColourKeepsVerticesWhereColourChanges) {
+    Layer layer = layer_of(shapes::plane(30));
+    Attribute color{AttributeKind::color, "", 4, {}};
+    for (const Vec3& p : layer.mesh.positions) {
+        const double value = p.x() < 0.5 ? 0 : 255;
+        for (const double c : {value, value, value, 255.0}) color.values.push_back(c);
+    }
+    layer.attributes.push_back(color);
+    AdaptiveOptions o = with_threshold(0.01);
+    const double without = value(run(layer, o), "vertices");
+    o.color.use = true;
+    const Result r = run(layer, o);
+    EXPECT_GT(value(r, "vertices"), without + 40);
+    expect_valid(*r.layer, layer.mesh);
+    // No face of the result holds both colours but those at the edge.
+    const Mesh mesh = mesh_of(*r.layer, layer.mesh);
+    double wrong = 0;
+    for (const Face& f : mesh.faces) {
+        double low = 1, high = 0;
+        for (const Index v : f)
+            low = std::min(low, mesh.positions[v].x()), high = std::max(high, mesh.positions[v].x());
+        if (low < 0.5 && high >= 0.5) wrong = std::max(wrong, high - low);
+    }
+    EXPECT_LT(wrong, 0.15);
+}
+
+TEST(Adaptive, QualityTexcoordAndNormalKeepVertices) {
+    Layer layer = layer_of(shapes::plane(30));
+    Attribute quality{AttributeKind::quality, "", 1, {}}, texcoord{AttributeKind::texcoord, "", 2, {}};
+    for (const Vec3& p : layer.mesh.positions) {
+        quality.values.push_back(std::sin(20 * p.x()));
+        texcoord.values.insert(texcoord.values.end(), {p.x(), p.y() + 0.1 * std::sin(20 * p.y())});
+    }
+    layer.attributes = {quality, texcoord};
+    AdaptiveOptions o = with_threshold(0.01);
+    const double without = value(run(layer, o), "vertices");
+    o.quality = {true, 0.1};
+    EXPECT_GT(value(run(layer, o), "vertices"), without + 20);
+    o.quality.use = false;
+    o.texcoord = {true, 0.01};
+    EXPECT_GT(value(run(layer, o), "vertices"), without + 20);
+    o.texcoord.use = false;
+    o.normal = {true, 5};
+    EXPECT_EQ(value(run(layer, o), "vertices"), without);
+    Layer block = layer_of(shapes::block(10));
+    const double plain = value(run(block, with_threshold(2)), "vertices");
+    o = with_threshold(2);
+    o.normal = {true, 10};
+    EXPECT_GT(value(run(block, o), "vertices"), plain + 10);
+}
+
+TEST(Adaptive, SeamsOfWedgesStaySeams) {
+    // A plane whose left and right halves are two charts that meet at x = 0.5.
+    Layer layer = layer_of(shapes::plane(20, {0, 0, 1}));
+    for (const Face& f : layer.mesh.faces) {
+        double centre = 0;
+        for (const Index v : f) centre += layer.mesh.positions[v].x() / 3;
+        for (const Index v : f)
+            layer.wedges.push_back({layer.mesh.positions[v].x() + (centre < 0.5 ? 0 : 3), layer.mesh.positions[v].y()});
+    }
+    AdaptiveOptions o = with_threshold(0.001);
+    o.texcoord = {true, 0.001};
+    const Result r = run(layer, o);
+    EXPECT_LE(value(r, "vertices"), 20) << "linear texture coordinates need no vertices";
+    const Mesh mesh = mesh_of(*r.layer, layer.mesh);
+    for (const Face& f : mesh.faces) {
+        double low = 1, high = 0;
+        for (const Index v : f)
+            low = std::min(low, mesh.positions[v].x()), high = std::max(high, mesh.positions[v].x());
+        EXPECT_FALSE(low < 0.5 - 1e-9 && high > 0.5 + 1e-9) << "a face crosses the seam";
+    }
+}
+
+TEST(Adaptive, RegionOfInterestStaysInFull) {
+    Layer layer = layer_of(shapes::scan(2000));
+    layer.selected_face.assign(layer.mesh.faces.size(), 0);
+    Index selected = 0;
+    for (std::size_t f = 0; f < layer.mesh.faces.size(); ++f)
+        if (layer.mesh.positions[layer.mesh.faces[f][0]].x() > 0.6) layer.selected_face[f] = 1, ++selected;
+    ASSERT_GT(selected, 50);
+    for (const bool fit : {false, true}) {
+        AdaptiveOptions o = with_threshold(1e9);
+        o.region_of_interest = true;
+        o.fit = fit;
+        const Result r = run(layer, o);
+        expect_valid(*r.layer, layer.mesh);
+        const std::set<Index> faces(r.layer->source_face.begin(), r.layer->source_face.end());
+        const Mesh mesh = mesh_of(*r.layer, layer.mesh);
+        for (std::size_t i = 0; i < r.layer->faces.size(); ++i) {
+            const Index f = r.layer->source_face[i];
+            if (!layer.selected_face[f]) continue;
+            for (int k = 0; k < 3; ++k) {
+                ASSERT_EQ(r.layer->source_vertex[r.layer->faces[i][k]], layer.mesh.faces[f][k]);
+                ASSERT_EQ(mesh.positions[r.layer->faces[i][k]], layer.mesh.positions[layer.mesh.faces[f][k]]);
+            }
+        }
+        for (std::size_t f = 0; f < layer.mesh.faces.size(); ++f)
+            if (layer.selected_face[f]) {
+                EXPECT_TRUE(faces.count(static_cast<Index>(f)));
+            }
+        EXPECT_LT(r.layer->faces.size(), layer.mesh.faces.size());
+    }
+}
+
+// ---- positions
+// -------------------------------------------------------------------------------------------------------
+
+TEST(Adaptive, FitFlipsNothingAndKeepsTheBoundaryOnEveryClass) {
+    for (const auto& [name, mesh] : fixtures::every_class())
+        for (const double threshold : {0.05, 1.0, 1e9}) {
+            SCOPED_TRACE(name);
+            AdaptiveOptions o = with_threshold(threshold);
+            const Result plain = run(layer_of(mesh), o);
+            o.fit = true;
+            const Result r = run(layer_of(mesh), o);
+            EXPECT_EQ(r.layer->faces, plain.layer->faces);
+            const Mesh before = mesh_of(*plain.layer, mesh), after = mesh_of(*r.layer, mesh);
+            EXPECT_EQ(compare(before.faces, before.positions, after.positions).flipped_faces, 0);
+            expect_valid(*r.layer, mesh);
+            const Rings rings = vertex_rings(before);
+            for (Index v = 0; v < rings.rows(); ++v)
+                if (rings.kind[v] != RingKind::closed) {
+                    ASSERT_EQ(before.positions[v], after.positions[v]);
+                }
+        }
+}
+
+TEST(Adaptive, FittedSphereHasTheSphereBetween) {
+    const Mesh sphere = shapes::irregular_sphere(4000);
+    AdaptiveOptions o = with_threshold(1);
+    o.target = Target::faces;
+    o.faces = 500;
+    o.measure = true;
+    const Result plain = run(layer_of(sphere), o);
+    o.fit = true;
+    const Result r = run(layer_of(sphere), o);
+    // Chords of vertices on a sphere lie inside it; a fit has errors on both sides: about half as large.
+    EXPECT_LT(value(r, "rms_distance"), 0.6 * value(plain, "rms_distance"));
+    const Mesh mesh = mesh_of(*r.layer, sphere);
+    EXPECT_NEAR(surface(mesh.faces, mesh.positions).volume, surface(sphere.faces, sphere.positions).volume, 0.01);
+}
+
+TEST(Adaptive, BandGainActsFirst) {
+    const Layer layer = layer_of(shapes::scan(2000));
+    AdaptiveOptions o = with_threshold(0);
+    o.band = default_band(layer, Unit::wavelength);
+    o.band.finest = 0;
+    o.band_gain = 0;
+    const Result r = run(layer, o);
+    ASSERT_TRUE(r.layer->positions);
+    EXPECT_EQ(r.layer->faces, layer.mesh.faces);
+    EXPECT_GT(displacement(layer.mesh.positions, *r.layer->positions).rms, 0);
+    o.geometry.threshold = 0.05;
+    const double smooth = value(run(layer, o), "faces");
+    EXPECT_LT(smooth, value(run(layer, with_threshold(0.05)), "faces"));
+}
+
+// ---- bad input
+// -------------------------------------------------------------------------------------------------------
+
+TEST(Adaptive, BadInputIsNamed) {
+    const Layer layer = layer_of(shapes::icosphere(4));
+    const auto message = [&](const AdaptiveOptions& o) -> std::string {
+        try {
+            run(layer, o);
+        } catch (const InputError& e) {
+            return e.what();
+        }
+        return "accepted";
+    };
+    const auto expect = [&](const std::string& name, const AdaptiveOptions& o) {
+        EXPECT_NE(message(o).find(name), std::string::npos) << message(o);
+    };
+    for (const double bad : {-1.0, std::nan("")}) {
+        expect("geometry_threshold", with_threshold(bad));
+        AdaptiveOptions o = with_threshold(1);
+        o.normal = {true, bad};
+        expect("normal_threshold", o);
+        o = with_threshold(1);
+        o.target = Target::rms_distance;
+        o.error = bad;
+        expect("error", o);
+        o = with_threshold(1);
+        o.normal_limit = bad;
+        expect("normal_limit", o);
+    }
+    AdaptiveOptions o = with_threshold(1);
+    o.color.use = true;
+    expect("use_color", o);
+    o = with_threshold(1);
+    o.quality.use = true;
+    expect("use_quality", o);
+    o = with_threshold(1);
+    o.texcoord.use = true;
+    expect("use_texcoord", o);
+    o = with_threshold(1);
+    o.geometry.use = false;
+    expect("use_geometry", o);
+    o = with_threshold(1);
+    o.region_of_interest = true;
+    expect("region_of_interest", o);
+    o = with_threshold(1);
+    o.target = Target::faces;
+    o.faces = -1;
+    expect("faces", o);
+    o = with_threshold(1);
+    o.band_gain = infinity;
+    expect("band_gain", o);
+    o = with_threshold(1);
+    o.base_vertices = 3;
+    expect("base_vertices", o);
+    EXPECT_THROW(run(layer_of(shapes::not_finite(infinity)), with_threshold(1)), InputError);
+    EXPECT_THROW(run(Layer(), with_threshold(1)), InputError);
+}
+
+TEST(Adaptive, CanBeCancelledAtEveryReport) {
+    const Layer layer = layer_of(shapes::scan(1000));
+    for (int stop = 0; stop < 20; ++stop) {
+        int calls = 0;
+        Session session;
+        session.progress = Progress([&](int, const char*) { return calls++ < stop; });
+        AdaptiveOptions o = with_threshold(1);
+        try {
+            adaptive_reconstruction(layer, o, session);
+            EXPECT_LE(calls, stop);
+        } catch (const Cancelled&) {
+            EXPECT_EQ(calls, stop + 1);
+        }
+    }
+}
