@@ -260,21 +260,22 @@ Result generate_level(const Layer& layer, const GenerateLevelOptions& options, S
     const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
     const Hierarchy& h = pyramid->hierarchy();
     const int last = static_cast<int>(h.levels.size());
-    require(options.level >= 0 && options.level <= last,
+    const int level = options.at_most ? std::min(options.level, last) : options.level;
+    require(level >= 0 && level <= last,
             "level must be between 0 and " + std::to_string(last) + ", the number of levels of this mesh");
-    const Index count = h.size[options.level];
-    LevelMesh mesh = level_mesh(h, layer.mesh.faces, options.level);
+    const Index count = h.size[level];
+    LevelMesh mesh = level_mesh(h, layer.mesh.faces, level);
     DerivedMesh derived;
-    derived.name = "level " + std::to_string(options.level);
+    derived.name = "level " + std::to_string(level);
     derived.source_vertex.assign(h.order.begin(), h.order.begin() + count);
     derived.faces = std::move(mesh.faces);
     derived.source_face = std::move(mesh.source_face);
     if (options.smoothed)
-        derived.positions = positions_of(pyramid->transform().synthesise(pyramid->coefficients(), {}, options.level));
-    result.report.add("level", options.level);
+        derived.positions = positions_of(pyramid->transform().synthesise(pyramid->coefficients(), {}, level));
+    result.report.add("level", level);
     result.report.add("vertices", static_cast<int>(count));
     result.report.add("faces", static_cast<int>(derived.faces.size()));
-    result.report.add("wavelength", pyramid->levels()[options.level].wavelength, "mesh units");
+    result.report.add("wavelength", pyramid->levels()[level].wavelength, "mesh units");
     result.layer = std::move(derived);
     return result;
 }

@@ -27,7 +27,7 @@ struct PyramidOptions {
     int base_vertices = 100;     ///< >= 4
     double length_weight = 0.1;  ///< >= 0, see HierarchyOptions
     double normal_limit = 60;    ///< degrees, in (0, 180]
-    int seed = 0;                    ///< 0: cheapest collapses first; others vary the order, for averaging
+    int seed = 0;                ///< 0: cheapest collapses first; others vary the order, for averaging
     Features features = Features::none;
     double feature_angle = 40;  ///< degrees, in (0, 180), for Features::angle
 };
@@ -86,7 +86,8 @@ Result compute_pyramid(const Layer& layer, const ComputePyramidOptions& options,
 /// "Generate level": the mesh of a level as a new layer.
 struct GenerateLevelOptions {
     PyramidOptions pyramid;
-    int level = 8;  ///< 0 = the input .. number of levels = the base; larger ones are an error
+    int level = 8;         ///< 0 = the input .. number of levels = the base; larger ones are an error
+    bool at_most = false;  ///< take the last level instead of an error if there are not so many
     /// Positions of the coarse level of the pyramid (presmoothed) instead of the input's.
     bool smoothed = false;
 };

@@ -24,6 +24,12 @@ GenerateLevelOptions level_defaults(const Layer* layer) {
     return o;
 }
 
+Result run_level(const Layer& layer, const GenerateLevelOptions& options, Session& session) {
+    GenerateLevelOptions o = options;
+    o.at_most = o.level == level_defaults(&layer).level;  // some meshes have fewer levels than their size promises
+    return generate_level(layer, o, session);
+}
+
 void bind_level(Parameters& p, GenerateLevelOptions& o) {
     p.integer("level", o.level,
               {"Level",
@@ -93,7 +99,7 @@ const Plugin& table() {
                  new_layer,
                  {},
                  {}},
-                level_defaults, bind_level, generate_level),
+                level_defaults, bind_level, run_level),
             filter<DetailOptions>(
                 {"Multiresolution: Detail to Vertex Quality",
                  "compute_scalar_multires_detail_per_vertex",
