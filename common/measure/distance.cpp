@@ -57,28 +57,45 @@ struct Sum {
     }
 };
 
+Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 d = b - a;
+    const double length = d.squaredNorm();
+    return length > 0 ? Vec3(a + std::clamp(d.dot(p - a) / length, 0.0, 1.0) * d) : a;
+}
+
+/// For triangles that are next to nothing but their sides.
+Vec3 closest_on_sides(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    Vec3 best = closest_on_segment(p, a, b);
+    for (const Vec3& other : {closest_on_segment(p, b, c), closest_on_segment(p, c, a)})
+        if ((other - p).squaredNorm() < (best - p).squaredNorm()) best = other;
+    return best;
+}
+
 double area(const Vec3& a, const Vec3& b, const Vec3& c) { return 0.5 * (b - a).cross(c - a).norm(); }
 
 }  // namespace
 
 Vec3 closest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const auto on_segment = [&](const Vec3& s, const Vec3& t) -> Vec3 {
-        const Vec3 d = t - s;
-        const double length = d.squaredNorm();
-        return length > 0 ? Vec3(s + std::clamp(d.dot(p - s) / length, 0.0, 1.0) * d) : s;
-    };
-    const Vec3 ab = b - a, ac = c - a, n = ab.cross(ac);
-    const double nn = n.squaredNorm();
-    if (nn > 0) {
-        // Barycentric coordinates of the projection.
-        const Vec3 ap = p - a;
-        const double v = ap.cross(ac).dot(n) / nn, w = ab.cross(ap).dot(n) / nn;
-        if (v >= 0 && w >= 0 && v + w <= 1) return a + v * ab + w * ac;
-    }
-    Vec3 best = on_segment(a, b);
-    for (const Vec3& other : {on_segment(b, c), on_segment(c, a)})
-        if ((other - p).squaredNorm() < (best - p).squaredNorm()) best = other;
-    return best;
+    const Vec3 ab = b - a, ac = c - a, ap = p - a;
+    const double ab_ab = ab.squaredNorm(), ab_ac = ab.dot(ac), ac_ac = ac.squaredNorm();
+    if (ab_ab * ac_ac - ab_ac * ab_ac <= 1e-10 * ab_ab * ac_ac) return closest_on_sides(p, a, b, c);
+    // By the region of the plane that the projection falls into, from dot products alone.
+    const double ab_ap = ab.dot(ap), ac_ap = ac.dot(ap);
+    if (ab_ap <= 0 && ac_ap <= 0) return a;
+    const double ab_bp = ab_ap - ab_ab, ac_bp = ac_ap - ab_ac;
+    if (ab_bp >= 0 && ac_bp <= ab_bp) return b;
+    const double ab_cp = ab_ap - ab_ac, ac_cp = ac_ap - ac_ac;
+    if (ac_cp >= 0 && ab_cp <= ac_cp) return c;
+    const double wc = ab_ap * ac_bp - ab_bp * ac_ap;
+    if (wc <= 0 && ab_ap >= 0 && ab_bp <= 0) return a + ab_ap / ab_ab * ab;
+    const double wb = ab_cp * ac_ap - ab_ap * ac_cp;
+    if (wb <= 0 && ac_ap >= 0 && ac_cp <= 0) return a + ac_ap / ac_ac * ac;
+    const double wa = ab_bp * ac_cp - ab_cp * ac_bp;
+    const double from_b = ac_bp - ab_bp, to_c = ab_cp - ac_cp;
+    if (wa <= 0 && from_b >= 0 && to_c >= 0) return b + from_b / (from_b + to_c) * (c - b);
+    const double sum = wa + wb + wc;
+    if (!(sum > 0)) return closest_on_sides(p, a, b, c);
+    return a + wb / sum * ab + wc / sum * ac;
 }
 
 SurfaceTree::SurfaceTree(const Faces& faces, const Positions& positions) : faces_(faces), positions_(positions) {
