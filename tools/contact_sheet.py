@@ -26,12 +26,14 @@ MARK = (196, 78, 52)
 
 @dataclasses.dataclass
 class Panel:
-    """A mesh and its caption. vertices: #V by 3, faces: #F by 3."""
+    """A mesh and its caption. vertices: #V by 3, faces: #F by 3, colors: #V by 3 in 0..1 or None, edges: draw them."""
 
     title: str
     subtitle: str
     vertices: np.ndarray
     faces: np.ndarray
+    colors: np.ndarray | None = None
+    edges: bool = False
 
 
 @dataclasses.dataclass
@@ -85,8 +87,11 @@ def render(panel, camera, size):
     mesh = pyvista.PolyData.from_regular_faces(panel.vertices, panel.faces)
     mesh = mesh.compute_normals(cell_normals=False, split_vertices=False, auto_orient_normals=False,
                                 consistent_normals=False)
-    plotter.add_mesh(mesh, color=CLAY, smooth_shading=True, ambient=0.1, diffuse=0.9, specular=0.18,
-                     specular_power=18)
+    look = {"color": CLAY} if panel.colors is None else {"scalars": panel.colors, "rgb": True}
+    if panel.edges:
+        look |= {"show_edges": True, "edge_color": "#4a443d", "line_width": 0.6}
+    plotter.add_mesh(mesh, smooth_shading=not panel.edges, ambient=0.1, diffuse=0.9, specular=0.18, specular_power=18,
+                     **look)
     # A raking key light brings out bumps; the others keep the shadows readable.
     for right, up, towards, intensity, color in ((-0.8, 0.75, 0.55, 0.95, "#fff6ea"), (0.9, 0.1, 0.5, 0.3, "#e8f0ff"),
                                                  (0.1, -0.6, 0.6, 0.12, "#ffffff"), (0.0, 0.15, 1.0, 0.18, "#ffffff")):

@@ -1,15 +1,17 @@
-"""Shows what the filters do: builds a pyramid, applies the band filters through pymeshlab, writes meshes and pictures.
+"""Shows what the filters do: builds a pyramid, applies every kind of filter through pymeshlab, writes meshes and pictures.
 
     .venv/bin/python tools/demo.py [MESH]
 
 scripts/demo.sh builds the plugins and calls this. Results go to demo-output/: a PLY file for each filter, the table of
-the pyramid's levels (levels.md, levels.csv), the filters' reports (reports.md) and contact-sheet.png.
+the pyramid's levels (levels.md, levels.csv), the filters' reports (reports.md), contact-sheet.png with the bands and
+denoise-attributes-adaptive.png with the rest.
 """
 
 import argparse
 import pathlib
 import sys
 
+import numpy as np
 import pymeshlab
 
 import contact_sheet
@@ -18,6 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 PLUGINS = ROOT / "build/pymeshlab-2025.07/plugins"
 BUNNY = pathlib.Path(pymeshlab.__file__).parent / "tests/sample_meshes/bunny.obj"
 
+SECOND_SHEET = "denoise-attributes-adaptive.png"
 PYRAMID = "compute_multires_pyramid"
 EQUALIZER_GAINS = (0, 0, 1, 2.5, 2.5, 1, 1, 1)
 
@@ -28,6 +31,17 @@ STEPS = (
     ("Enhance", "the same middle scales doubled", "apply_coord_multires_enhance", {"gain": 2}),
     ("Equalizer", "gains " + " ".join(f"{g:g}" for g in EQUALIZER_GAINS), "apply_coord_multires_equalizer",
      {f"gain_{i + 1}": g for i, g in enumerate(EQUALIZER_GAINS)}),
+)  # fmt: skip
+
+
+# The others, each with what prepares its input.
+OTHERS = (
+    ("Noisy", "noise of 0.2 edge lengths added", "noise", None, {}),
+    ("Denoise", "no parameter given", "noise", "apply_coord_multires_denoise", {}),
+    ("Painted", "stripes with speckles", "paint", None, {}),
+    ("Relax attributes", "20 steps on the colours", "paint", "apply_attributes_multires_relaxation",
+     {"iterations": 20}),
+    ("Adaptive", "vertices where there is detail", "copy", "generate_multires_adaptive_reconstruction", {}),
 )  # fmt: skip
 
 
@@ -63,12 +77,51 @@ def report_row(title, report):
     return [title, *moved, *changed, str(report["flipped_faces"])]
 
 
-def panel(title, subtitle, mesh):
-    return contact_sheet.Panel(title, subtitle, mesh.vertex_matrix(), mesh.face_matrix())
+def panel(title, subtitle, mesh, **look):
+    return contact_sheet.Panel(title, subtitle, mesh.vertex_matrix(), mesh.face_matrix(), **look)
+
+
+def add_input(document, kind):
+    """A new layer made of the current one: a copy, with noise along the normals, or painted. Always the same."""
+    mesh = document.current_mesh()
+    vertices, faces = mesh.vertex_matrix(), mesh.face_matrix()
+    random = np.random.default_rng(1)
+    colors = None
+    if kind == "noise":
+        edge = np.linalg.norm(vertices[faces] - vertices[np.roll(faces, 1, axis=1)], axis=2).mean()
+        normals = mesh.vertex_normal_matrix()
+        normals = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
+        vertices = vertices + 0.2 * edge * random.standard_normal((len(vertices), 1)) * normals
+    if kind == "paint":
+        height = (vertices - vertices.min(axis=0)) / np.ptp(vertices, axis=0).max()
+        stripe = (np.floor(12 * height[:, :1]) % 2).astype(float)
+        colors = stripe * [0.85, 0.45, 0.2, 1] + (1 - stripe) * [0.2, 0.45, 0.7, 1]
+        speckled = random.random(len(colors)) < 0.25
+        colors[speckled, :3] = random.random((speckled.sum(), 3))
+    parts = {"vertex_matrix": vertices, "face_matrix": faces}
+    document.add_mesh(pymeshlab.Mesh(**parts, **({"v_color_matrix": colors} if colors is not None else {})))
+
+
+def run_others(document, original, output):
+    """Panels of denoising, attributes and adaptive reconstruction; writes the meshes."""
+    panels = []
+    for title, subtitle, kind, name, parameters in OTHERS:
+        document.set_current_mesh(original)
+        add_input(document, kind)
+        if name:
+            document.apply_filter(name, **parameters)
+        mesh = document.current_mesh()
+        look = {"colors": mesh.vertex_color_matrix()[:, :3]} if kind == "paint" else {}
+        if kind == "copy":
+            subtitle = f"{mesh.face_number():,} faces, {subtitle}"
+            look = {"edges": True}
+        panels.append(panel(title, subtitle, mesh, **look))
+        document.save_current_mesh(str(output / (title.lower().replace(" ", "-") + ".ply")))
+    return panels
 
 
 def run(path, output):
-    """Applies all steps to the mesh, each to a fresh copy. Returns level rows, report rows and panels."""
+    """Applies all steps to the mesh, each to a fresh copy. Returns level rows, report rows, panels and the others'."""
     document = pymeshlab.MeshSet(verbose=False)
     document.load_new_mesh(str(path))
     original = document.current_mesh_id()
@@ -85,7 +138,7 @@ def run(path, output):
         panels.append(panel(title, subtitle, document.current_mesh()))
         document.save_current_mesh(str(output / (title.lower().replace(" ", "-") + ".ply")))
         document.delete_current_mesh()
-    return levels, reports, panels
+    return levels, reports, panels, run_others(document, original, output)
 
 
 def main():
@@ -95,14 +148,14 @@ def main():
     parser.add_argument("--plugins", type=pathlib.Path, default=PLUGINS)
     parser.add_argument("--up", choices=("x", "y", "z", "-x", "-y", "-z"), help="axis that points up in the pictures")
     parser.add_argument("--tile", type=int, default=520, help="side of one picture, pixels")
-    parser.add_argument("--small", type=pathlib.Path, help="also save the contact sheet here, below 300 KB")
+    parser.add_argument("--small", type=pathlib.Path, help="also save the contact sheet here, and the second one beside it, below 300 KB")
     arguments = parser.parse_args()
 
     load_plugins(arguments.plugins)
     output = arguments.output
     output.mkdir(parents=True, exist_ok=True)
     try:
-        levels, reports, panels = run(arguments.mesh, output)
+        levels, reports, panels, others = run(arguments.mesh, output)
     except pymeshlab.PyMeshLabException as error:
         sys.exit(f"{arguments.mesh}: {error}")
 
@@ -120,7 +173,11 @@ def main():
     sheet.save(output / "contact-sheet.png", optimize=True)
     if arguments.small:
         contact_sheet.save_small(sheet, arguments.small)
-    print(f"Meshes, tables and contact-sheet.png are in {output}")
+    second = contact_sheet.contact_sheet(others, camera, arguments.tile)
+    second.save(output / SECOND_SHEET, optimize=True)
+    if arguments.small:
+        contact_sheet.save_small(second, arguments.small.parent / SECOND_SHEET)
+    print(f"Meshes, tables, contact-sheet.png and {SECOND_SHEET} are in {output}")
 
 
 if __name__ == "__main__":
