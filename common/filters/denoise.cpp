@@ -50,11 +50,13 @@ Positions by_normal_field(const Layer& layer, const DenoiseOptions& o, double gi
         options.noise = normal_noise(given, mean_edge_length(mesh.faces, mesh.positions));
     NormalFieldStats stats;
     const Progress smoothing = session.progress.part(0.1, 0.85);
-    std::vector<Vec3> normals = denoise_normals(mesh.faces, mesh.positions, graph, options, stats,
-                                                [&](double f) { smoothing.report(f, "Denoising the normals"); });
+    const std::vector<Vec3> normals = denoise_normals(mesh.faces, mesh.positions, graph, options, stats,
+                                                      [&](double f) { smoothing.report(f, "Denoising the normals"); });
     session.progress.report(0.85, "Fitting the vertices");
-    constexpr int steps = 8;  // more would follow the normals further and lose volume
-    Positions after = fit_vertices(mesh.faces, mesh.positions, at, normals, steps);
+    constexpr double rounding = 1e-4;  // of coordinates in single precision; there is nothing to fit then
+    constexpr int steps = 8;           // more would follow the normals further and lose volume
+    Positions after =
+        stats.noise > rounding ? fit_vertices(mesh.faces, mesh.positions, at, normals, steps) : mesh.positions;
     report.add("normal_noise", stats.noise);
     report.add("normal_noise_after", stats.left);
     report.add("detail_per_level", stats.detail_rms);
@@ -63,23 +65,27 @@ Positions by_normal_field(const Layer& layer, const DenoiseOptions& o, double gi
     return after;
 }
 
-/// Shifts the vertices along their normals until the volume is what it was; two Newton steps.
+/// Shifts the vertices along their normals, in the measure of their weights, until the volume is what it was; three
+/// Newton steps.
 void restore_volume(const Mesh& before, const std::vector<double>& weights, Positions& after) {
     const Vec3 apex = bounding_box(before.positions).center();
     const double wanted = surface(before.faces, before.positions, apex).volume;
-    for (int step = 0; step < 2; ++step) {
-        const Surface now = surface(before.faces, after, apex);
-        if (!(now.area > 0)) return;
+    for (int step = 0; step < 3; ++step) {
         std::vector<Vec3> normal(after.size(), Vec3::Zero());
         for (const Face& f : before.faces) {
             const Vec3 n = (after[f[1]] - after[f[0]]).cross(after[f[2]] - after[f[0]]);
             for (const Index v : f) normal[v] += n;
         }
-        const double shift = (wanted - now.volume) / now.area;
+        // A sixth of the sum is how the volume grows with the vertex.
+        double gained = 0;
         for (std::size_t i = 0; i < after.size(); ++i) {
-            const double length = normal[i].norm();
-            if (length > 0) after[i] += normal[i] * (shift / length * (weights.empty() ? 1 : weights[i]));
+            const double length = normal[i].norm(), weight = weights.empty() ? 1 : weights[i];
+            normal[i] = length > 0 ? Vec3(normal[i] * (weight / length)) : Vec3(Vec3::Zero());
+            gained += length * weight / 6;
         }
+        if (!(gained > 0)) return;
+        const double shift = (wanted - surface(before.faces, after, apex).volume) / gained;
+        for (std::size_t i = 0; i < after.size(); ++i) after[i] += shift * normal[i];
     }
 }
 

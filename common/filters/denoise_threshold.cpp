@@ -102,11 +102,13 @@ Positions by_threshold(const Layer& layer, const DenoiseOptions& options, double
         PyramidOptions o = options.pyramid;
         o.seed = spin;
         // The first hierarchy is the one that is kept; the others are different and thrown away.
-        Session other;
-        other.progress =
+        Session part;
+        part.progress =
             session.progress.part(static_cast<double>(spin) / options.cycle_spins, (spin + 1.0) / options.cycle_spins);
+        if (spin == 0) part.pyramid = session.pyramid;
         Report unused;
-        const auto pyramid = spin == 0 ? pyramid_of(layer, o, session, report) : pyramid_of(layer, o, other, unused);
+        const auto pyramid = pyramid_of(layer, o, part, spin == 0 ? report : unused);
+        if (spin == 0) session.pyramid = pyramid;
         Thresholding thresholding(*pyramid, options, given, deviation, confidence);
         const Positions p = thresholding.run(*pyramid);
         for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += (p[i] - mean[i]) / (spin + 1);

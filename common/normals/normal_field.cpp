@@ -48,31 +48,46 @@ Geometry geometry_of(const Faces& faces, const Positions& p) {
     return g;
 }
 
-/// Median difference of the normals of faces with a common edge; 0 without such faces.
+/// Median difference of the normals of faces with a common edge; 0 without such faces. Faces without a normal do not
+/// count.
 double median_difference(const FaceGraph& graph, const Normals& n) {
     std::vector<float> d(graph.edges.size());
-    parallel_for(static_cast<Index>(d.size()),
-                 [&](Index e) { d[e] = static_cast<float>((n[graph.edges[e][0]] - n[graph.edges[e][1]]).norm()); });
+    parallel_for(static_cast<Index>(d.size()), [&](Index e) {
+        const Vec3 &a = n[graph.edges[e][0]], &b = n[graph.edges[e][1]];
+        d[e] = a.isZero() || b.isZero() ? -1 : static_cast<float>((a - b).norm());
+    });
+    d.erase(std::remove(d.begin(), d.end(), -1.0F), d.end());
     if (d.empty()) return 0;
     const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
     std::nth_element(d.begin(), middle, d.end());
     return *middle;
 }
 
-double mean_distance(const FaceGraph& graph, const Positions& centroid) {
-    if (graph.edges.empty()) return 0;
-    const double sum = chunked_reduce<double>(graph.edges.size(), [&](std::size_t begin, std::size_t end) {
-        double part = 0;
-        for (std::size_t e = begin; e < end; ++e)
-            part += (centroid[graph.edges[e][0]] - centroid[graph.edges[e][1]]).norm();
-        return part;
-    });
-    return sum / static_cast<double>(graph.edges.size());
+/// Between centroids of faces with a common edge; 0 without such faces.
+double mean_distance(const FaceGraph& graph, const Geometry& g) {
+    using Sum = Eigen::Array2d;  // of the distances, and their number
+    struct Total {
+        Sum sum = Sum::Zero();
+        Total& operator+=(const Total& o) {
+            sum += o.sum;
+            return *this;
+        }
+    };
+    const Sum all = chunked_reduce<Total>(graph.edges.size(), [&](std::size_t begin, std::size_t end) {
+                        Total part;
+                        for (std::size_t e = begin; e < end; ++e) {
+                            const Index a = graph.edges[e][0], b = graph.edges[e][1];
+                            if (g.area[a] > 0 && g.area[b] > 0)
+                                part.sum += Sum((g.centroid[a] - g.centroid[b]).norm(), 1);
+                        }
+                        return part;
+                    }).sum;
+    return all[1] > 0 ? all[0] / all[1] : 0;
 }
 
 /// Area times the weight by distance, for every entry of the graph: the same in all steps.
 std::vector<double> spatial_weights(const FaceGraph& graph, const Geometry& g) {
-    const double sigma = reach * mean_distance(graph, g.centroid);
+    const double sigma = reach * mean_distance(graph, g);
     const double scale = sigma > 0 ? 1 / (2 * sigma * sigma) : 0;
     std::vector<double> w(graph.neighbor.size());
     parallel_for(static_cast<Index>(g.area.size()), [&](Index f) {
@@ -84,13 +99,17 @@ std::vector<double> spatial_weights(const FaceGraph& graph, const Geometry& g) {
     return w;
 }
 
-/// One bilateral step.
+/// One bilateral step. Faces without a normal stay so.
 Normals smoothed(const FaceGraph& graph, const std::vector<double>& spatial, const std::vector<double>& area,
                  const Normals& n, double tolerance) {
     const double scale = 1 / (2 * tolerance * tolerance);
     Normals out(n.size());
     parallel_for(static_cast<Index>(n.size()), [&](Index f) {
         const Vec3 own = n[f];
+        if (own.isZero()) {
+            out[f] = own;
+            return;
+        }
         Vec3 sum = area[f] * own;
         for (Index k = graph.offset[f]; k < graph.offset[f + 1]; ++k) {
             const Vec3& other = n[graph.neighbor[k]];
