@@ -1,0 +1,150 @@
+#include "filters/denoise_threshold.h"
+
+#include "denoise_fixtures.h"
+
+namespace multires {
+
+using namespace fixtures;
+
+namespace {
+
+Mesh noisy_scan(double deviation) {
+    Mesh mesh = shapes::scan(2000);
+    mesh.positions = with_noise(mesh, deviation);
+    return mesh;
+}
+
+/// The schemes, with and without presmoothing, and both rules.
+std::vector<DenoiseOptions> every_way() {
+    std::vector<DenoiseOptions> all;
+    for (const Scheme scheme : {Scheme::guskov, Scheme::roy})
+        for (const double presmooth : {0.0, 0.5})
+            for (const DenoiseMethod method : {DenoiseMethod::soft_threshold, DenoiseMethod::hard_threshold}) {
+                DenoiseOptions o;
+                o.method = method;
+                o.pyramid.scheme = scheme;
+                o.pyramid.presmooth = presmooth;
+                all.push_back(o);
+            }
+    return all;
+}
+
+Report report_of(const Mesh& mesh, const DenoiseOptions& options) {
+    Session session;
+    return denoise(layer_of(mesh), options, session).report;
+}
+
+}  // namespace
+
+TEST(DenoiseThreshold, ZeroGivesTheInputBack) {
+    const Mesh mesh = noisy_scan(0.2);
+    for (DenoiseOptions options : every_way()) {
+        options.unit = ThresholdUnit::length;
+        options.threshold = 0;
+        EXPECT_LE(largest_distance(denoised(mesh, options), mesh.positions), 1e-12);
+        for (const double share : series(report_of(mesh, options), "share_zeroed")) EXPECT_EQ(share, 0);
+    }
+}
+
+TEST(DenoiseThreshold, AHugeOneRemovesTheLevels) {
+    const Mesh mesh = noisy_scan(0.2);
+    for (DenoiseOptions options : every_way()) {
+        options.unit = ThresholdUnit::length;
+        options.threshold = 1e6;
+        options.finest_level = 1;
+        options.coarsest_level = 4;
+        BandOptions band;
+        band.pyramid = options.pyramid;
+        band.band = {Unit::level, 1, 4, 0};
+        band.gain = 0;
+        Session session;
+        EXPECT_LE(largest_distance(denoised(mesh, options), *scale_band(layer_of(mesh), band, session).positions),
+                  1e-12);
+        EXPECT_EQ(series(report_of(mesh, options), "share_zeroed"), (std::vector<double>{1, 1, 1}));
+    }
+}
+
+TEST(DenoiseThreshold, LevelsBeyondTheBaseDoNotMatter) {
+    const Mesh mesh = noisy_scan(0.1);
+    DenoiseOptions options;
+    options.method = DenoiseMethod::soft_threshold;
+    options.coarsest_level = 1000;
+    EXPECT_LT(series(report_of(mesh, options), "share_zeroed").size(), 100u);
+    options.finest_level = 999;
+    EXPECT_LE(largest_distance(denoised(mesh, options), mesh.positions), 1e-12);
+}
+
+TEST(DenoiseThreshold, RemovesNoise) {
+    const Mesh truth = shapes::irregular_sphere(4000);
+    Mesh mesh = truth;
+    mesh.positions = with_noise(truth, 0.2);
+    const Error before = error_of(truth, mesh.positions);
+    for (const DenoiseOptions& options : every_way()) {
+        const Error after = error_of(truth, denoised(mesh, options));
+        EXPECT_LT(after.angle, 0.6 * before.angle);
+        EXPECT_LT(after.rms, before.rms);
+    }
+}
+
+TEST(DenoiseThreshold, OneThresholdForAllLevelsIsThatOfTheFinest) {
+    const Mesh mesh = noisy_scan(0.2);
+    DenoiseOptions options;
+    options.method = DenoiseMethod::soft_threshold;
+    const auto each = series(report_of(mesh, options), "threshold_per_level");
+    options.per_level = false;
+    const auto one = series(report_of(mesh, options), "threshold_per_level");
+    ASSERT_EQ(one.size(), 5u);
+    for (const double t : one) EXPECT_EQ(t, each[0]);
+    EXPECT_NE(each[4], each[0]);
+    options.strength = 2;
+    EXPECT_NEAR(series(report_of(mesh, options), "threshold_per_level")[0], 2 * each[0], 1e-15);
+}
+
+TEST(DenoiseThreshold, AlongTheNormalOnlyLeavesWhatIsInTheSurface) {
+    // A plane with irregular vertices: all details are within it.
+    const Mesh plane = shapes::plane(25);
+    for (DenoiseOptions options : every_way()) {
+        options.unit = ThresholdUnit::length;
+        options.threshold = 1;
+        EXPECT_GT(largest_distance(denoised(plane, options), plane.positions), 1e-3);
+        options.normal_only = true;
+        EXPECT_LE(largest_distance(denoised(plane, options), plane.positions), 1e-12);
+    }
+    // Noise along the normals goes all the same.
+    const Mesh truth = shapes::irregular_sphere(3000);
+    Mesh mesh = truth;
+    mesh.positions = with_noise(truth, 0.2);
+    DenoiseOptions options;
+    options.method = DenoiseMethod::soft_threshold;
+    options.normal_only = true;
+    EXPECT_LT(error_of(truth, denoised(mesh, options)).angle, 0.5 * error_of(truth, mesh.positions).angle);
+}
+
+TEST(DenoiseThreshold, CycleSpinningAveragesHierarchies) {
+    const Mesh truth = shapes::irregular_sphere(3000);
+    Mesh mesh = truth;
+    mesh.positions = with_noise(truth, 0.2);
+    DenoiseOptions options;
+    options.method = DenoiseMethod::hard_threshold;
+    double last = 1e300;
+    for (const int spins : {1, 2, 8}) {
+        options.cycle_spins = spins;
+        const double angle = error_of(truth, denoised(mesh, options)).angle;
+        EXPECT_LT(angle, last);
+        last = angle;
+    }
+}
+
+TEST(DenoiseThreshold, KeepsThePyramidForTheNextCall) {
+    const Layer layer = layer_of(noisy_scan(0.2));
+    DenoiseOptions options;
+    options.method = DenoiseMethod::soft_threshold;
+    options.cycle_spins = 2;
+    Session session;
+    const Result first = denoise(layer, options, session), second = denoise(layer, options, session);
+    EXPECT_FALSE(value<bool>(first.report, "pyramid_reused"));
+    EXPECT_TRUE(value<bool>(second.report, "pyramid_reused"));
+    EXPECT_EQ(*first.positions, *second.positions);
+}
+
+}  // namespace multires
