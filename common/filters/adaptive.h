@@ -81,9 +81,10 @@ Hierarchy adaptive_hierarchy(const Layer& layer, const AdaptiveOptions& options,
 /// and in the region of interest. See adaptive_importance.cpp.
 std::vector<double> importance(const Layer& layer, const Hierarchy& hierarchy, const AdaptiveOptions& options);
 
-/// Moves the vertices of a reconstruction to where they fit the input best: least squares over the closest points of
-/// the input's vertices. No face turns by more than 60 degrees against where it was; vertices without a
-/// closed ring stay (boundary, non-manifold, in no face), as do those marked `fixed`. See adaptive_fit.cpp.
+/// Moves the vertices of a reconstruction to where they fit the input best: least squares of the distances of the
+/// input's vertices along the normals of the faces nearest to them. No face turns by more than 60 degrees against where
+/// it was; vertices without a closed ring stay (boundary, non-manifold, in no face), as do those marked `fixed`. See
+/// adaptive_fit.cpp.
 /// @param positions  #V', of the vertices that `faces` refers to
 Positions fitted(const Mesh& input, const Faces& faces, const Positions& positions,
                  const std::vector<std::uint8_t>& fixed);

@@ -12,11 +12,12 @@
 namespace multires {
 namespace {
 
-/// Closest point of an input vertex: a face and its barycentric coordinates.
+/// Closest point of an input vertex: a face, its barycentric coordinates and normal.
 struct Foot {
-    Index face = -1;
-    Vec3 share = Vec3::Zero();
+    Index face = -1;  ///< -1: does not count
+    Vec3 share = Vec3::Zero(), normal = Vec3::Zero();
     double weight = 0;
+    double gap = 0;  ///< from the foot to the vertex, along the normal
 };
 
 Vec3 barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -39,8 +40,34 @@ std::vector<double> vertex_areas(const Mesh& mesh) {
     return area;
 }
 
-/// Least squares for displacements x of the vertices: sum of weight |B x - gap|^2 + stiffness weight_v |x_v|^2, by
-/// conjugate gradients with a diagonal preconditioner.
+/// Feet of the input's vertices on a reconstruction.
+std::vector<Foot> feet_of(const Mesh& input, const std::vector<double>& area, const Faces& faces, const Positions& at) {
+    const SurfaceTree tree(faces, at);
+    std::vector<Foot> feet(input.positions.size());
+    parallel_chunks(static_cast<Index>(feet.size()), 1024, [&](Index begin, Index end) {
+        Index hint = -1;
+        for (Index i = begin; i < end; ++i) {
+            if (!(area[i] > 0)) continue;
+            const SurfaceTree::Hit hit = tree.closest(input.positions[i], hint);
+            hint = hit.face;
+            const Face& f = faces[hit.face];
+            const Vec3 n = (at[f[1]] - at[f[0]]).cross(at[f[2]] - at[f[0]]);
+            const double length = n.norm();
+            if (!(length > 0)) continue;
+            Foot& foot = feet[i];
+            foot.face = hit.face;
+            foot.share = barycentric(hit.point, at[f[0]], at[f[1]], at[f[2]]);
+            foot.normal = n / length;
+            foot.weight = area[i];
+            foot.gap = foot.normal.dot(input.positions[i] - hit.point);
+        }
+    });
+    return feet;
+}
+
+/// Least squares for displacements x of the vertices: the sum over the feet of weight (normal . (B x) - gap)^2, where
+/// B x is the displacement of the foot, and stiffness weight_v |x_v|^2 over the vertices. By conjugate gradients with a
+/// diagonal preconditioner.
 class Solver {
 public:
     Solver(const Faces& faces, const std::vector<Foot>& feet, const std::vector<std::uint8_t>& fixed, Index vertices)
@@ -62,7 +89,9 @@ public:
         }
     }
 
-    Positions solve(const Positions& gap, int steps) const {
+    Positions solve(int steps) const {
+        std::vector<double> gap(feet_.size());
+        for (std::size_t i = 0; i < gap.size(); ++i) gap[i] = feet_[i].gap;
         Positions x(diagonal_.size(), Vec3::Zero()), r = transposed(gap), z = preconditioned(r), d = z;
         double rz = dot(r, z);
         const double enough = 1e-8 * rz;
@@ -81,21 +110,24 @@ public:
     }
 
 private:
-    Positions transposed(const Positions& rows) const {
+    Positions transposed(const std::vector<double>& rows) const {
         Positions out(diagonal_.size(), Vec3::Zero());
-        for (std::size_t i = 0; i < feet_.size(); ++i)
-            if (feet_[i].face >= 0)
-                for (int k = 0; k < 3; ++k)
-                    out[faces_[feet_[i].face][k]] += feet_[i].weight * feet_[i].share[k] * rows[i];
+        for (std::size_t i = 0; i < feet_.size(); ++i) {
+            const Foot& foot = feet_[i];
+            if (foot.face < 0) continue;
+            for (int k = 0; k < 3; ++k)
+                out[faces_[foot.face][k]] += foot.weight * foot.share[k] * rows[i] * foot.normal;
+        }
         for (std::size_t v = 0; v < out.size(); ++v)
             if (fixed_[v]) out[v] = Vec3::Zero();
         return out;
     }
     Positions apply(const Positions& x) const {
-        Positions rows(feet_.size(), Vec3::Zero());
+        std::vector<double> rows(feet_.size(), 0);
         parallel_for(static_cast<Index>(rows.size()), [&](Index i) {
-            if (feet_[i].face >= 0)
-                for (int k = 0; k < 3; ++k) rows[i] += feet_[i].share[k] * x[faces_[feet_[i].face][k]];
+            const Foot& foot = feet_[i];
+            if (foot.face < 0) return;
+            for (int k = 0; k < 3; ++k) rows[i] += foot.share[k] * foot.normal.dot(x[faces_[foot.face][k]]);
         });
         Positions out = transposed(rows);
         for (std::size_t v = 0; v < out.size(); ++v)
@@ -151,25 +183,11 @@ Positions fitted(const Mesh& input, const Faces& faces, const Positions& positio
     const Rings rings = vertex_rings({positions, faces});
     for (std::size_t v = 0; v < stay.size(); ++v) stay[v] |= rings.kind[v] != RingKind::closed;
     const std::vector<double> area = vertex_areas(input);
-    const Index points = static_cast<Index>(input.positions.size());
     Positions now = positions;
-    constexpr int rounds = 3, steps = 12;
+    constexpr int rounds = 2, steps = 12;
     for (int round = 0; round < rounds; ++round) {
-        const SurfaceTree tree(faces, now);
-        std::vector<Foot> feet(points);
-        Positions gap(points, Vec3::Zero());
-        parallel_chunks(points, 1024, [&](Index begin, Index end) {
-            Index hint = -1;
-            for (Index i = begin; i < end; ++i) {
-                if (!(area[i] > 0)) continue;
-                const SurfaceTree::Hit hit = tree.closest(input.positions[i], hint);
-                hint = hit.face;
-                const Face& f = faces[hit.face];
-                feet[i] = {hit.face, barycentric(hit.point, now[f[0]], now[f[1]], now[f[2]]), area[i]};
-                gap[i] = input.positions[i] - hit.point;
-            }
-        });
-        Positions move = Solver(faces, feet, stay, static_cast<Index>(now.size())).solve(gap, steps);
+        const std::vector<Foot> feet = feet_of(input, area, faces, now);
+        Positions move = Solver(faces, feet, stay, static_cast<Index>(now.size())).solve(steps);
         for (std::size_t v = 0; v < move.size(); ++v) move[v] += now[v] - positions[v];
         now = without_flips(faces, positions, std::move(move));
     }
