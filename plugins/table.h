@@ -57,7 +57,7 @@ enum Parts : std::uint32_t {
 };
 
 /// Where the filter appears in the host's menu.
-enum class MenuClass { smoothing, remeshing, quality, layer, measure };
+enum class MenuClass { smoothing, remeshing, quality, layer, measure, texture };
 
 /// One filter.
 struct Filter {

@@ -190,9 +190,9 @@ std::vector<Wedge> relaxed_wedges(const Layer& layer, const AttributeRelaxationO
 
 Result relax_attributes(const Layer& layer, const AttributeRelaxationOptions& options, Session& session) {
     check(options);
+    require_usable(layer.mesh);
     const std::vector<Channels> all = vertex_channels(layer, options.what, options.linear_light);
     if (options.what.wedge_texcoord) check_wedges(layer.wedges);
-    require_usable(layer.mesh);
     const std::vector<double> weights = region_weights(layer, options.region);
 
     Result result;

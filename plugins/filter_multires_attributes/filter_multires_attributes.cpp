@@ -1,35 +1,13 @@
-#include "bindings.h"
+#include "attribute_bindings.h"
 
 #include "filters/attributes.h"
+#include "filters/attributes_band.h"
+#include "filters/texcoord.h"
 
 // Filters that work on attributes of the surface and leave its shape alone.
 
 namespace multires::plugin {
 namespace {
-
-const char* const group = "Attributes";
-
-void bind_linear_light(Parameters& p, bool& linear_light) {
-    p.boolean("linear_light", linear_light,
-              {"Colours as light",
-               "Decode colours (sRGB) to amounts of light before computing with them, and encode the result. Right for "
-               "photographs; off, colours are computed with as they are stored, right for colour scales.",
-               0, 1, true, group});
-}
-
-void bind_color_and_quality(Parameters& p, AttributeChoice& what) {
-    p.boolean("color", what.color, {"Vertex colour", "With alpha.", 0, 1, false, group});
-    p.boolean("quality", what.quality, {"Vertex quality", "The scalar value of the vertices.", 0, 1, false, group});
-}
-
-void bind_custom(Parameters& p, AttributeChoice& what) {
-    p.boolean("custom", what.custom,
-              {"Custom attributes", "Custom scalars and points of the vertices.", 0, 1, false, group});
-    p.text("custom_names", what.custom_names,
-           {"Names of custom attributes",
-            "Which custom attributes: their names, separated by commas. Empty: all, but for source_vertex.", 0, 1,
-            false, group});
-}
 
 AttributeRelaxationOptions relaxation_defaults(const Layer* layer) {
     AttributeRelaxationOptions o;
@@ -40,12 +18,13 @@ AttributeRelaxationOptions relaxation_defaults(const Layer* layer) {
 
 void bind_relaxation(Parameters& p, AttributeRelaxationOptions& o) {
     bind_color_and_quality(p, o.what);
-    p.boolean("texcoord", o.what.texcoord, {"Vertex texture coordinates", "Of the vertices.", 0, 1, false, group});
+    p.boolean("texcoord", o.what.texcoord,
+              {"Vertex texture coordinates", "Of the vertices.", 0, 1, false, attribute_group});
     p.boolean("wedge_texcoord", o.what.wedge_texcoord,
               {"Wedge texture coordinates",
                "Of the faces' corners, chart by chart: corners with the same vertex and the same texture coordinate "
                "stay together.",
-               0, 1, false, group});
+               0, 1, false, attribute_group});
     bind_custom(p, o.what);
     p.integer("iterations", o.iterations,
               {"Iterations", "Steps of relaxation; each reaches a ring further.", 1, 10000, false, "Relaxation"});
@@ -69,6 +48,85 @@ void bind_relaxation(Parameters& p, AttributeRelaxationOptions& o) {
     bind_linear_light(p, o.linear_light);
     bind_region(p, o.region);
     bind_features(p, o.features, o.feature_angle);
+}
+
+AttributeBandOptions band_defaults(const Layer* layer) {
+    AttributeBandOptions o;
+    o.what.quality = layer && default_choice(layer).quality;
+    o.what.color = !o.what.quality;
+    o.band.coarsest = o.cutoff = 1;
+    if (layer) {
+        o.band = default_band(*layer, Unit::wavelength);
+        o.cutoff = default_cutoff(*layer, Unit::wavelength);
+    }
+    o.region.selected = has_selection(layer);
+    return o;
+}
+
+AttributeBandOptions custom_band_defaults(const Layer* layer) {
+    AttributeBandOptions o = band_defaults(layer);
+    o.what = {};
+    o.what.custom = true;
+    return o;
+}
+
+void bind_how(Parameters& p, AttributeBandOptions& o) {
+    p.choice("mode", o.mode, {"low pass", "stop band", "enhance"},
+             {"Mode",
+              "Low pass: remove everything finer than the cutoff. Stop band: remove what is between finest and "
+              "coarsest. Enhance: multiply it by the gain.",
+              0, 2, false, "Band"});
+    p.slider("gain", o.gain,
+             {"Gain", "For enhance: 1 changes nothing, 2 doubles the details of the band, 0 removes them.", 0, 8, false,
+              "Band"});
+    p.real("cutoff", o.cutoff,
+           {"Cutoff",
+            "For low pass: everything finer than this is removed: shorter waves, lower levels, levels with more "
+            "vertices.",
+            0, 1e30, false, "Band"});
+    bind_band(p, o.band);
+    bind_region(p, o.region);
+    bind_pyramid(p, o.pyramid);
+}
+
+void bind_attribute_band(Parameters& p, AttributeBandOptions& o) {
+    bind_color_and_quality(p, o.what);
+    bind_linear_light(p, o.linear_light);
+    bind_how(p, o);
+}
+
+void bind_custom_band(Parameters& p, AttributeBandOptions& o) {
+    p.text("custom_names", o.what.custom_names, custom_names_hint);
+    bind_how(p, o);
+}
+
+Result run_band(const Layer& layer, const AttributeBandOptions& options, Session& session) {
+    AttributeBandOptions o = options;
+    if (is_still(o.cutoff, default_cutoff(layer, Unit::wavelength))) o.cutoff = default_cutoff(layer, o.band.unit);
+    if (o.mode != BandMode::low_pass) o.band = in_own_unit(layer, o.band);
+    return filter_attribute_bands(layer, o, session);
+}
+
+TexcoordOptions texcoord_defaults(const Layer* /*layer*/) { return {}; }
+
+void bind_texcoord(Parameters& p, TexcoordOptions& o) {
+    const char* texture = "Texture coordinates";
+    p.choice("projection", o.projection, {"cylindrical", "spherical", "planar", "existing"},
+             {"Projection",
+              "Where the coarse level gets its coordinates from: a cylinder or sphere about the axis, the plane across "
+              "it, or the texture coordinates its vertices have.",
+              0, 3, false, texture});
+    p.choice("axis", o.axis, {"principal", "x", "y", "z"},
+             {"Axis",
+              "Axis of the projection, through the centroid. Principal: along the longest extent of the shape, for a "
+              "planar projection along the shortest.",
+              0, 3, false, texture});
+    p.integer("coarse_vertices", o.coarse_vertices,
+              {"Coarse vertices",
+               "The first level with so many vertices or fewer is the one that is projected; all finer ones follow "
+               "smoothly. More follow the shape more closely, fewer vary more smoothly.",
+               1, 1000000000, false, texture});
+    bind_pyramid(p, o.pyramid);
 }
 
 constexpr std::uint32_t everything =
@@ -95,6 +153,48 @@ const Plugin& table() {
                  {},
                  {}},
                 relaxation_defaults, bind_relaxation, relax_attributes),
+            filter<AttributeBandOptions>(
+                {"Multiresolution: Filter Attributes by Band",
+                 "apply_attributes_multires_band",
+                 std::string("Low pass, stop band or enhancement of vertex colour or quality by scale, through the "
+                             "pyramid of the surface. The geometry stays as it is.<br>") +
+                     cite_roy + cite_guskov,
+                 MenuClass::smoothing,
+                 faces,
+                 vertex_color | vertex_quality,
+                 vertex_color | vertex_quality,
+                 {},
+                 {}},
+                band_defaults, bind_attribute_band, run_band),
+            filter<AttributeBandOptions>(
+                {"Multiresolution: Filter Custom Attributes by Band",
+                 "apply_attributes_multires_band_custom",
+                 std::string("Low pass, stop band or enhancement of custom scalars and points of the vertices by "
+                             "scale, through the pyramid of the surface. The geometry stays as it is.<br>") +
+                     cite_roy + cite_guskov,
+                 MenuClass::smoothing,
+                 faces,
+                 vertex_quality | custom_attributes,
+                 custom_attributes,
+                 {},
+                 {}},
+                custom_band_defaults, bind_custom_band, run_band),
+            filter<TexcoordOptions>(
+                {"Multiresolution: Generate Texture Coordinates",
+                 "generate_multires_texcoord",
+                 std::string(
+                     "Projects a coarse level of the pyramid to a cylinder, a sphere or a plane and subdivides "
+                     "its texture coordinates to the finest level: they vary smoothly however rough the surface "
+                     "is. Makes vertex and wedge texture coordinates; wedges go on beyond 1 where a face "
+                     "crosses the seam.<br>") +
+                     cite_guskov,
+                 MenuClass::texture,
+                 faces,
+                 vertex_texcoord | wedge_texcoord,
+                 vertex_texcoord | wedge_texcoord,
+                 {},
+                 {}},
+                texcoord_defaults, bind_texcoord, generate_texcoord),
         }};
     return plugin;
 }

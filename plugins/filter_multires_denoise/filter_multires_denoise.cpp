@@ -1,5 +1,6 @@
-#include "bindings.h"
+#include "attribute_bindings.h"
 
+#include "filters/attributes_denoise.h"
 #include "filters/denoise.h"
 
 // Filters that remove noise and keep shape.
@@ -67,6 +68,44 @@ void bind_denoise(Parameters& p, DenoiseOptions& o) {
     bind_pyramid(p, o.pyramid);
 }
 
+AttributeDenoiseOptions attribute_defaults(const Layer* layer) {
+    AttributeDenoiseOptions o;
+    o.what.quality = layer && default_choice(layer).quality;
+    o.what.color = !o.what.quality;
+    o.region.selected = has_selection(layer);
+    return o;
+}
+
+void bind_attributes(Parameters& p, AttributeDenoiseOptions& o) {
+    bind_color_and_quality(p, o.what);
+    bind_custom(p, o.what);
+    bind_linear_light(p, o.linear_light);
+    const char* group = "Threshold";
+    p.choice(
+        "rule", o.rule, {"soft", "hard"},
+        {"Rule",
+         "Soft: details up to the threshold go, all others become shorter by it. Hard: details up to the threshold "
+         "go, the others stay.",
+         0, 1, false, group});
+    p.boolean("automatic", o.automatic,
+              {"Automatic threshold", "A threshold for each level from the noise found in the attribute.", 0, 1, false,
+               group});
+    p.real("strength", o.strength,
+           {"Strength", "Factor for the automatic threshold: 1 removes the noise found.", 0, 100, false, group});
+    p.real(
+        "threshold", o.threshold,
+        {"Threshold value",
+         "If it is not automatic: the length up to which details are dropped, in units of the attribute, for colours "
+         "of 255.",
+         0, 1e30, false, group});
+    p.integer("finest_level", o.finest_level,
+              {"Finest level", "First level that is denoised, 0 is the finest.", 0, 999999999, true, group});
+    p.integer("coarsest_level", o.coarsest_level,
+              {"Coarsest level", "Levels up to, but not with, this one are denoised.", 1, 1000000000, true, group});
+    bind_region(p, o.region);
+    bind_pyramid(p, o.pyramid);
+}
+
 }  // namespace
 
 const Plugin& table() {
@@ -93,6 +132,21 @@ const Plugin& table() {
                  {},
                  {}},
                 denoise_defaults, bind_denoise, denoise),
+            filter<AttributeDenoiseOptions>(
+                {"Multiresolution: Denoise Attributes",
+                 "apply_attributes_multires_denoise",
+                 std::string("Removes noise from vertex colour, quality or custom attributes by thresholding their "
+                             "details, without a parameter to set; the geometry stays as it is. The report says how "
+                             "much noise was found at each level, the threshold used and the share of details that "
+                             "went.<br>") +
+                     cite_roy,
+                 MenuClass::smoothing,
+                 faces,
+                 vertex_color | vertex_quality | custom_attributes,
+                 vertex_color | vertex_quality | custom_attributes,
+                 {},
+                 {}},
+                attribute_defaults, bind_attributes, denoise_attributes),
         }};
     return plugin;
 }

@@ -82,6 +82,8 @@ Interface::FilterClass menu_class(const Filter& filter) {
         return Interface::Layer;
     case plugin::MenuClass::measure:
         return Interface::Measure;
+    case plugin::MenuClass::texture:
+        return Interface::Texture;
     }
     throw std::logic_error("filter without a menu class");
 }

@@ -1,0 +1,195 @@
+#include "filters/attributes_denoise.h"
+
+#include "fixtures.h"
+
+#include <cmath>
+#include <limits>
+
+namespace multires {
+
+using namespace fixtures;
+
+namespace {
+
+/// A standard normal number.
+double normal(shapes::Random& random) {
+    double sum = -6;
+    for (int k = 0; k < 12; ++k) sum += random.uniform(0, 1);
+    return sum;
+}
+
+std::vector<double> noisy(std::vector<double> values, double deviation, std::uint64_t seed) {
+    shapes::Random random(seed);
+    for (double& x : values) x += deviation * normal(random);
+    return values;
+}
+
+double rms_difference(const std::vector<double>& a, const std::vector<double>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) sum += (a[i] - b[i]) * (a[i] - b[i]);
+    return std::sqrt(sum / static_cast<double>(a.size()));
+}
+
+/// A smooth function with a jump, on a sphere: what denoising must keep.
+struct Scene {
+    Layer layer;
+    std::vector<double> quality, color;  // without noise
+
+    Scene() {
+        layer.mesh = shapes::irregular_sphere(6000);
+        const std::vector<double> smooth = shapes::harmonic(layer.mesh.positions, 6, 1);
+        for (std::size_t i = 0; i < smooth.size(); ++i) {
+            const double jump = layer.mesh.positions[i].x() > 0.2 ? 1 : 0;
+            quality.push_back(smooth[i] + 3 * jump);
+            for (const double x : {100 + 20 * smooth[i], 60 + 100 * jump, 150 - 20 * smooth[i], 255.0})
+                color.push_back(std::clamp(x, 0.0, 255.0));
+        }
+    }
+    Layer with_noise(double of_quality, double of_color) const {
+        Layer out = layer;
+        out.attributes = {{AttributeKind::quality, "", 1, noisy(quality, of_quality, 1)},
+                          {AttributeKind::color, "", 4, noisy(color, of_color, 2)}};
+        for (std::size_t i = 0; i < color.size(); ++i) {
+            double& x = out.attributes[1].values[i];
+            x = i % 4 == 3 ? 255 : std::clamp(std::round(x), 0.0, 255.0);
+        }
+        return out;
+    }
+};
+
+const Scene& scene() {
+    static const Scene made;
+    return made;
+}
+
+Result denoise(const Layer& layer, const AttributeDenoiseOptions& options) {
+    Session session;
+    return denoise_attributes(layer, options, session);
+}
+
+template <class T>
+T reported(const Result& result, const std::string& key) {
+    for (const Report::Entry& e : result.report.entries())
+        if (e.key == key) return std::get<T>(e.value);
+    ADD_FAILURE() << "no " << key;
+    return T();
+}
+
+AttributeDenoiseOptions of_quality() {
+    AttributeDenoiseOptions options;
+    options.what.quality = true;
+    return options;
+}
+
+TEST(DenoiseAttributes, FindsTheNoiseWhateverTheSchemeAndOperator) {
+    for (const double deviation : {0.2, 0.5})  // where it is more than what the scene has at the finest level
+        for (const Scheme scheme : {Scheme::roy, Scheme::guskov})
+            for (const Operator op : {Operator::cotangent_delaunay, Operator::second_difference_flaps}) {
+                AttributeDenoiseOptions options = of_quality();
+                options.pyramid.scheme = scheme;
+                options.pyramid.op = op;
+                const Result result = denoise(scene().with_noise(deviation, 0), options);
+                EXPECT_NEAR(reported<double>(result, "quality_noise"), deviation, 0.15 * deviation);
+            }
+}
+
+TEST(DenoiseAttributes, TakesMostOfTheNoiseAway) {
+    for (const double deviation : {0.05, 0.2, 0.5}) {
+        const Layer layer = scene().with_noise(deviation, 0);
+        const double soft = rms_difference(denoise(layer, of_quality()).attributes[0].values, scene().quality);
+        AttributeDenoiseOptions options = of_quality();
+        options.rule = Shrink::hard;
+        const double hard = rms_difference(denoise(layer, options).attributes[0].values, scene().quality);
+        EXPECT_LT(soft, (deviation > 0.1 ? 0.65 : 0.9) * deviation);
+        EXPECT_LT(hard, (deviation > 0.1 ? 0.7 : 0.9) * deviation);
+    }
+}
+
+TEST(DenoiseAttributes, DenoisesColoursAsVectorsAndLeavesAlphaAlone) {
+    const Layer layer = scene().with_noise(0, 15);
+    AttributeDenoiseOptions options;
+    options.what.color = true;
+    for (const bool light : {true, false}) {
+        options.linear_light = light;
+        const Result result = denoise(layer, options);
+        const std::vector<double>& after = result.attributes[0].values;
+        const double before = rms_difference(layer.attributes[1].values, scene().color);
+        EXPECT_LT(rms_difference(after, scene().color), 0.5 * before);
+        for (std::size_t i = 3; i < after.size(); i += 4) EXPECT_EQ(after[i], 255);
+    }
+    EXPECT_NEAR(reported<double>(denoise(layer, options), "color_noise"), 15, 2);
+}
+
+TEST(DenoiseAttributes, LeavesWhatHasNoNoise) {
+    for (const auto& [name, mesh] : every_class()) {
+        Layer layer;
+        layer.mesh = mesh;
+        layer.attributes = {{AttributeKind::color, "", 4, std::vector<double>(4 * mesh.positions.size(), 77)},
+                            {AttributeKind::quality, "", 1, std::vector<double>(mesh.positions.size(), 0.1)}};
+        AttributeDenoiseOptions options = of_quality();
+        options.what.color = true;
+        const Result result = denoise(layer, options);
+        for (int i = 0; i < 2; ++i) EXPECT_EQ(result.attributes[i].values, layer.attributes[i].values) << name;
+        EXPECT_FALSE(result.positions);
+    }
+    const Result result = denoise(scene().with_noise(0, 0), of_quality());
+    EXPECT_LT(rms_difference(result.attributes[0].values, scene().quality), 0.02);
+}
+
+TEST(DenoiseAttributes, StrengthZeroAndThresholdZeroChangeNothing) {
+    const Layer layer = scene().with_noise(0.3, 0);
+    AttributeDenoiseOptions options = of_quality();
+    options.strength = 0;
+    EXPECT_LT(rms_difference(denoise(layer, options).attributes[0].values, layer.attributes[0].values), 1e-12);
+    options.automatic = false;
+    EXPECT_LT(rms_difference(denoise(layer, options).attributes[0].values, layer.attributes[0].values), 1e-12);
+    options.threshold = 1e9;
+    const Result all = denoise(layer, options);
+    for (const double share : reported<std::vector<double>>(all, "quality_zeroed")) EXPECT_EQ(share, 1);
+}
+
+TEST(DenoiseAttributes, LevelsAndGroupsAreAsChosen) {
+    const Layer layer = scene().with_noise(0.3, 0);
+    AttributeDenoiseOptions options = of_quality();
+    options.coarsest_level = 4;
+    EXPECT_EQ(reported<std::vector<double>>(denoise(layer, options), "quality_threshold").size(), 4u);
+    options.finest_level = 2;
+    EXPECT_EQ(reported<std::vector<double>>(denoise(layer, options), "quality_threshold").size(), 2u);
+    options = of_quality();
+    options.pyramid.grouping = Grouping::sequential;  // one vertex per level: still a handful of numbers
+    const Result result = denoise(layer, options);
+    EXPECT_LT(reported<std::vector<double>>(result, "quality_threshold").size(), 30u);
+    EXPECT_NEAR(reported<double>(result, "quality_noise"), 0.3, 0.05);
+    EXPECT_LT(rms_difference(result.attributes[0].values, scene().quality), 0.25);
+}
+
+TEST(DenoiseAttributes, HonoursTheSelection) {
+    Layer layer = scene().with_noise(0.3, 0);
+    layer.selected_vertex.assign(layer.mesh.positions.size(), 0);
+    for (std::size_t i = 0; i < 1000; ++i) layer.selected_vertex[i] = 1;
+    AttributeDenoiseOptions options = of_quality();
+    options.region.selected = true;
+    const std::vector<double> after = denoise(layer, options).attributes[0].values;
+    for (std::size_t i = 1000; i < after.size(); ++i) EXPECT_EQ(after[i], layer.attributes[0].values[i]);
+    EXPECT_NE(after[10], layer.attributes[0].values[10]);
+}
+
+TEST(DenoiseAttributes, RefusesWhatMakesNoSense) {
+    Layer layer = scene().with_noise(0.3, 0);
+    const auto refused = [&](auto change) {
+        AttributeDenoiseOptions options = of_quality();
+        change(options);
+        EXPECT_THROW(denoise(layer, options), InputError);
+    };
+    refused([](AttributeDenoiseOptions& o) { o.strength = -1; });
+    refused([](AttributeDenoiseOptions& o) { o.threshold = NAN; });
+    refused([](AttributeDenoiseOptions& o) { o.finest_level = -1; });
+    refused([](AttributeDenoiseOptions& o) { o.coarsest_level = 0; });
+    refused([](AttributeDenoiseOptions& o) { o.what = {}; });
+    refused([](AttributeDenoiseOptions& o) { o.what.custom = true; });
+    layer.attributes[0].values[9] = INFINITY;
+    refused([](AttributeDenoiseOptions&) {});
+}
+
+}  // namespace
+}  // namespace multires
