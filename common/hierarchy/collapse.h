@@ -80,8 +80,9 @@ inline Quadric vertex_quadric(Index v, const Ring& ring, const Positions& p, dou
 }
 
 /// Cost of v -> u: Garland-Heckbert quadrics of both at u, plus the edge-length term.
-inline double cost(const Quadric& qv, const Quadric& qu, const Vec3& d, double length_weight) {
-    const double quadric = qv.at(d) + qu.c;
+/// @param target_error  the quadric of u at u
+inline double cost(const Quadric& qv, double target_error, const Vec3& d, double length_weight) {
+    const double quadric = qv.at(d) + target_error;
     return (quadric > 0 ? quadric : 0) + length_weight * qv.weight() * d.squaredNorm();
 }
 

@@ -43,6 +43,8 @@ struct State {
     Rings rings;
     Positions positions;
     std::vector<Quadric> quadric;
+    std::vector<double>
+        error;  ///< quadric[i].c once more: all that is read of a neighbour's, and small enough to stay near
 };
 
 /// The cheapest target of every vertex that may go somewhere, and the sort key of its cost.
@@ -75,7 +77,7 @@ Candidates rank_vertices(const State& s, double length_weight, int seed) {
             if (!directions.allows(j)) continue;
             const Index u = ring.vertex[j];
             const double cost =
-                collapse::cost(s.quadric[v], s.quadric[u], s.positions[u] - s.positions[v], length_weight);
+                collapse::cost(s.quadric[v], s.error[u], s.positions[u] - s.positions[v], length_weight);
             if (cost < least) least = cost, c.target[v] = j;
         }
         if (least < std::numeric_limits<double>::infinity())
@@ -119,7 +121,7 @@ private:
             if (j == best || !directions.allows(j)) continue;
             const Index u = ring.vertex[j];
             others_.push_back(
-                {collapse::cost(s_.quadric[v], s_.quadric[u], s_.positions[u] - s_.positions[v], length_weight_), j});
+                {collapse::cost(s_.quadric[v], s_.error[u], s_.positions[u] - s_.positions[v], length_weight_), j});
         }
         std::sort(others_.begin(), others_.end());
         for (const auto& [cost, j] : others_)
@@ -168,6 +170,7 @@ State next_state(const State& s, const Step& step, const std::vector<Index>& deg
     t.rings.offset.resize(m + 1);
     t.positions.resize(m);
     t.quadric.resize(m);
+    t.error.resize(m);
     const auto parent = [&](Index x) { return step.parent[x]; };
     for (Index i = 0; i < n; ++i)
         if (parent(i) < 0) t.rings.offset[step.rank[i] + 1] = t.rings.offset[step.rank[i]] + degree[i];
@@ -192,6 +195,7 @@ State next_state(const State& s, const Step& step, const std::vector<Index>& deg
             if (parent(x) == i) q.add_moved(s.quadric[x], s.positions[x] - s.positions[i]);
         }
         t.quadric[to] = q;
+        t.error[to] = q.c;
     });
     if (options.memoryless) t.quadric = vertex_quadrics(t.rings, t.positions, options.boundary_weight);
     return t;
@@ -204,6 +208,7 @@ std::vector<Step> independent_sets(Rings rings, Positions positions, const Hiera
     std::vector<Step> steps;
     State s;
     s.quadric = vertex_quadrics(rings, positions, options.boundary_weight);
+    s.error.assign(s.quadric.size(), 0);
     s.rings = std::move(rings);
     s.positions = std::move(positions);
     const double whole = static_cast<double>(s.rings.rows());

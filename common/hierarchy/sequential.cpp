@@ -71,7 +71,7 @@ private:
     }
 
     double cost(Index v, Index u) const {
-        return collapse::cost(quadric_[v], quadric_[u], positions_[u] - positions_[v], options_.length_weight);
+        return collapse::cost(quadric_[v], quadric_[u].c, positions_[u] - positions_[v], options_.length_weight);
     }
 
     void push(Index v) {
