@@ -6,6 +6,7 @@
 #include "mesh/adjacency.h"
 #include "mesh/validation.h"
 #include "normals/normal_field.h"
+#include "normals/spikes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -44,19 +45,22 @@ Positions by_normal_field(const Layer& layer, const DenoiseOptions& o, double gi
     session.progress.report(0.02, "Finding neighbouring faces");
     const Incidence at = vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()));
     const FaceGraph graph = face_graph(mesh.faces, at);
+    session.progress.report(0.06, "Looking for impulsive noise");
+    Index spikes = 0;
+    const Positions start = without_spikes(mesh.faces, mesh.positions, at, spikes);
     NormalFieldOptions options;
     options.strength = o.strength;
     if (o.unit != ThresholdUnit::automatic)
         options.noise = normal_noise(given, mean_edge_length(mesh.faces, mesh.positions));
     NormalFieldStats stats;
     const Progress smoothing = session.progress.part(0.1, 0.85);
-    const std::vector<Vec3> normals = denoise_normals(mesh.faces, mesh.positions, graph, options, stats,
+    const std::vector<Vec3> normals = denoise_normals(mesh.faces, start, graph, options, stats,
                                                       [&](double f) { smoothing.report(f, "Denoising the normals"); });
     session.progress.report(0.85, "Fitting the vertices");
     constexpr double rounding = 1e-4;  // of coordinates in single precision; there is nothing to fit then
     constexpr int steps = 8;           // more would follow the normals further and lose volume
-    Positions after =
-        stats.noise > rounding ? fit_vertices(mesh.faces, mesh.positions, at, normals, steps) : mesh.positions;
+    Positions after = stats.noise > rounding ? fit_vertices(mesh.faces, start, at, normals, steps) : start;
+    report.add("spikes_removed", static_cast<int>(spikes));
     report.add("normal_noise", stats.noise);
     report.add("normal_noise_after", stats.left);
     report.add("detail_per_level", stats.detail_rms);

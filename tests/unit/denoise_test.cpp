@@ -100,6 +100,26 @@ TEST(Denoise, NoiseInAllDirectionsGoesAndFoldsWithIt) {
         }
 }
 
+TEST(Denoise, ImpulsiveNoiseGoes) {
+    const Limits shapes_and_limits[] = {
+        {"sphere", shapes::irregular_sphere(4000), {3.2, 3.7, 4.1}, {0.042, 0.053, 0.076}},
+        {"block", shapes::block(13), {3.1, 4.6, 5.6}, {0.06, 0.093, 0.135}},
+        {"waves", waves(10000), {3.6, 4.3, 4.4}, {0.049, 0.063, 0.08}},
+    };
+    for (const Limits& limits : shapes_and_limits)
+        for (int level = 0; level < 3; ++level) {
+            SCOPED_TRACE(std::string(limits.name) + ", level " + std::to_string(level));
+            const Mesh mesh = noisy(limits.mesh, 0.2 * (level + 1), NoiseKind::impulsive);
+            const Result result = run(layer_of(mesh));
+            EXPECT_GT(count(result.report, "spikes_removed"), 0.05 * mesh.positions.size());
+            const Error after = error_of(limits.mesh, *result.positions);
+            EXPECT_LE(after.angle, limits.angle[level]);
+            EXPECT_LE(after.rms, limits.rms[level]);
+            EXPECT_LE(std::abs(after.volume), 0.005);
+            EXPECT_LE(after.folded, error_of(limits.mesh, mesh.positions).folded);
+        }
+}
+
 TEST(Denoise, DeviationOfTheNoiseIsFound) {
     for (const Mesh& mesh : {shapes::plane(40), shapes::irregular_sphere(4000), shapes::icosphere(20)})
         for (const double deviation : {0.05, 0.1, 0.15, 0.2}) {
