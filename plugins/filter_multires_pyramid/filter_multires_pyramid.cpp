@@ -45,6 +45,7 @@ void bind_level(Parameters& p, GenerateLevelOptions& o) {
 
 DetailOptions detail_defaults(const Layer* layer) {
     DetailOptions o;
+    o.band.coarsest = 1;
     if (layer) o.band = default_band(*layer, Unit::wavelength);
     return o;
 }
