@@ -101,23 +101,25 @@ struct Changes {
 }  // namespace
 
 AttributeChoice default_choice(const Layer* layer) {
-    AttributeChoice choice;
     const auto has = [&](AttributeKind kind) {
         return layer && std::any_of(layer->attributes.begin(), layer->attributes.end(),
                                     [&](const Attribute& a) { return a.kind == kind && a.name != "source_vertex"; });
     };
-    if (has(AttributeKind::color))
-        choice.color = true;
-    else if (has(AttributeKind::quality))
-        choice.quality = true;
-    else if (layer && !layer->wedges.empty())
-        choice.wedge_texcoord = true;
-    else if (has(AttributeKind::texcoord))
-        choice.texcoord = true;
-    else if (has(AttributeKind::scalar) || has(AttributeKind::point))
-        choice.custom = true;
-    else
-        choice.color = true;
+    const bool wedges = layer && !layer->wedges.empty();
+    const bool custom = has(AttributeKind::scalar) || has(AttributeKind::point);
+    AttributeChoice choice;
+    bool* chosen = &choice.color;
+    if (!has(AttributeKind::color)) {
+        if (has(AttributeKind::quality))
+            chosen = &choice.quality;
+        else if (wedges)
+            chosen = &choice.wedge_texcoord;
+        else if (has(AttributeKind::texcoord))
+            chosen = &choice.texcoord;
+        else if (custom)
+            chosen = &choice.custom;
+    }
+    *chosen = true;
     return choice;
 }
 
