@@ -20,7 +20,8 @@ DETAIL = "compute_scalar_multires_detail_per_vertex"
 LOW_PASS, STOP_BAND = "apply_coord_multires_low_pass", "apply_coord_multires_stop_band"
 ENHANCE, EQUALIZER = "apply_coord_multires_enhance", "apply_coord_multires_equalizer"
 UNSHARP = "apply_coord_multires_unsharp"
-NEW_LAYER = [LEVEL, "generate_multires_adaptive_reconstruction"]
+ADAPTIVE = "generate_multires_adaptive_reconstruction"
+NEW_LAYER = [LEVEL, ADAPTIVE]
 MOVING = [name for name in FILTER_IDS if name.startswith("apply_coord")]
 WITH_PYRAMID = [name for name in FILTER_IDS if name != UNSHARP]
 
@@ -459,3 +460,64 @@ def test_a_reused_pyramid_gives_the_same_result():
         ms.apply_filter(LOW_PASS)
         results.append(ms.current_mesh().vertex_matrix())
     np.testing.assert_array_equal(*results)
+
+
+# ---- adaptive reconstruction -----------------------------------------------------------------------------------------
+
+
+def test_adaptive_reconstruction_from_the_input_to_the_base():
+    ms = bunny()
+    truth = ms.current_mesh()
+    fine = ms.apply_filter(ADAPTIVE, geometry_threshold=0)
+    np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), truth.vertex_matrix())
+    np.testing.assert_array_equal(ms.current_mesh().face_matrix(), truth.face_matrix())
+    assert fine["rms_distance"] == 0
+    ms.set_current_mesh(0)
+    coarse = ms.apply_filter(ADAPTIVE, geometry_threshold=1e9)
+    assert coarse["faces"] == coarse["base_faces"] == ms.current_mesh().face_number()
+    ms.set_current_mesh(0)
+    tenth = ms.apply_filter(ADAPTIVE, target="faces", faces=truth.face_number() // 10)
+    assert truth.face_number() // 10 - 1 <= tenth["faces"] <= truth.face_number() // 10
+    source = ms.current_mesh().vertex_custom_scalar_attribute_array("source_vertex").astype(int)
+    np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), truth.vertex_matrix()[source])
+    ms.set_current_mesh(0)
+    fit = ms.apply_filter(ADAPTIVE, target="faces", faces=truth.face_number() // 10, fit=True)
+    assert fit["rms_distance"] < 0.85 * tenth["rms_distance"]
+    # MeshLab measures the same.
+    way = ms.get_hausdorff_distance(sampledmesh=0, targetmesh=4, sampleface=True, samplenum=100000,
+                                    maxdist=pymeshlab.PercentageValue(100))  # fmt: skip
+    assert way["RMS"] == pytest.approx(fit["rms_distance"], rel=0.15)
+
+
+@pytest.mark.parametrize(
+    "parameters, message",
+    [
+        ({"geometry_threshold": -1.0}, "geometry_threshold"),
+        ({"geometry_threshold": float("nan")}, "geometry_threshold"),
+        ({"use_color": True}, "use_color"),
+        ({"use_quality": True}, "use_quality"),
+        ({"use_texcoord": True}, "use_texcoord"),
+        ({"region_of_interest": True}, "region_of_interest"),
+        ({"use_geometry": False}, "use_geometry"),
+        ({"target": "RMS distance", "error": 0}, "error"),
+    ],
+)
+def test_adaptive_reconstruction_names_what_is_wrong(parameters, message):
+    ms = new_document()
+    ms.create_sphere()
+    before = snapshot(ms)
+    with pytest.raises(Error, match=message):
+        ms.apply_filter(ADAPTIVE, **parameters)
+    assert differences(before, snapshot(ms)) == []
+
+
+def test_adaptive_reconstruction_keeps_the_selection_in_full_and_selected():
+    ms = bunny()
+    ms.compute_selection_by_condition_per_face(condselect="x0 > 0")
+    selected = ms.current_mesh().face_selection_array()
+    truth = ms.current_mesh().face_matrix()[selected]
+    ms.apply_filter(ADAPTIVE, region_of_interest=True, geometry_threshold=1e9)
+    source = ms.current_mesh().vertex_custom_scalar_attribute_array("source_vertex").astype(int)
+    kept = {tuple(f) for f in source[ms.current_mesh().face_matrix()]}
+    assert {tuple(f) for f in truth} <= kept
+    np.testing.assert_array_equal(ms.mesh(0).face_selection_array(), selected)
