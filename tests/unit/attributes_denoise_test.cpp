@@ -174,6 +174,19 @@ TEST(DenoiseAttributes, HonoursTheSelection) {
     EXPECT_NE(after[10], layer.attributes[0].values[10]);
 }
 
+TEST(DenoiseAttributes, DoesNotDependOnThreads) {
+    const Layer layer = scene().with_noise(0.3, 10);
+    AttributeDenoiseOptions options = of_quality();
+    options.what.color = true;
+    std::vector<std::vector<double>> values;
+    for (const int count : {1, 3}) {
+        const Threads threads(count);
+        for (const Attribute& a : denoise(layer, options).attributes) values.push_back(a.values);
+    }
+    EXPECT_EQ(values[0], values[2]);
+    EXPECT_EQ(values[1], values[3]);
+}
+
 TEST(DenoiseAttributes, RefusesWhatMakesNoSense) {
     Layer layer = scene().with_noise(0.3, 0);
     const auto refused = [&](auto change) {

@@ -123,6 +123,21 @@ TEST(RelaxAttributes, IterationsAreStepsAndColoursAreNotRoundedBetweenThem) {
     EXPECT_GT(fractions, 1000) << "rounding is for the host";
 }
 
+TEST(RelaxAttributes, DoesNotDependOnThreads) {
+    const Layer layer = with_everything(shapes::irregular_sphere(5000), random_value);
+    AttributeRelaxationOptions options;
+    options.what = everything();
+    options.iterations = 3;
+    std::vector<Result> results;
+    for (const int count : {1, 3}) {
+        const Threads threads(count);
+        results.push_back(relax(layer, options));
+    }
+    for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(results[0].attributes[i].values, results[1].attributes[i].values);
+    for (std::size_t c = 0; c < layer.wedges.size(); ++c)
+        EXPECT_EQ((*results[0].wedges)[c].u, (*results[1].wedges)[c].u);
+}
+
 TEST(RelaxAttributes, AveragesLightIfAskedTo) {
     // One white vertex among black ones: half the light is 188 of 255.
     Layer layer = with_everything(shapes::fan(6), [](Index v, int) { return v == 0 ? 255.0 : 0.0; });
