@@ -174,6 +174,35 @@ TEST(Refinement, PrefixesOfLevelsAreTheLevels) {
     }
 }
 
+/// Small sets and memoryless costs keep all that a hierarchy promises.
+TEST(Refinement, AdaptiveHierarchiesAreHierarchies) {
+    for (const auto& [name, mesh] : fixtures::every_class()) {
+        SCOPED_TRACE(name);
+        HierarchyOptions options;
+        options.base_vertices = 8;
+        options.length_weight = 0;
+        options.set_share = 0.5;
+        options.memoryless = true;
+        options.boundary_weight = boundary_weight;
+        fixtures::expect_hierarchy(fixtures::hierarchy_of(mesh, options), mesh, options, 7);
+    }
+}
+
+TEST(Refinement, MemorylessCostsAndSmallSetsCostLess) {
+    const Mesh mesh = shapes::scan(10000);
+    const auto error = [&](double share, bool memoryless) {
+        HierarchyOptions options;
+        options.length_weight = 0;
+        options.set_share = share;
+        options.memoryless = memoryless;
+        const Mesh coarse = fixtures::mesh_of_prefix(fixtures::hierarchy_of(mesh, options), mesh, 1000);
+        return two_sided_distance(mesh.faces, mesh.positions, coarse.faces, coarse.positions).rms;
+    };
+    const double plain = error(1, false), small = error(0.5, false);
+    EXPECT_LT(small, 0.9 * plain);
+    EXPECT_LT(error(0.5, true), small);
+}
+
 // ---- thresholds
 // ------------------------------------------------------------------------------------------------------
 
