@@ -96,7 +96,7 @@ Hierarchy build_hierarchy(Rings rings, const Positions& positions, const Hierarc
     const Index isolated = static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::isolated));
     Hierarchy h = options.grouping == Grouping::independent_sets
                       ? assemble(independent_sets(std::move(rings), normalised(positions), options, tick), options)
-                      : sequential(std::move(rings), normalised(positions), options, tick);
+                      : sequential(rings, normalised(positions), options, tick);
     h.irregular = irregular;
     h.isolated = isolated;
     h.positions.resize(positions.size());

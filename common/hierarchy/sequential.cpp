@@ -233,7 +233,8 @@ private:
 
 }  // namespace
 
-Hierarchy sequential(Rings rings, const Positions& positions, const HierarchyOptions& options, const Tick& tick) {
+Hierarchy sequential(const Rings& rings, const Positions& positions, const HierarchyOptions& options,
+                     const Tick& tick) {
     return Sequence(rings, positions, options).run(tick);
 }
 
