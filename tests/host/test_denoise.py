@@ -1,5 +1,5 @@
-"""Denoising, end to end in pymeshlab with its defaults. That it starts, refuses and keeps what it should in every host is
-tested with all other filters (test_filters.py, test_pymeshlab.py, test_meshlab_2020.py)."""
+"""Denoising, end to end in pymeshlab with its defaults. That it starts, refuses and keeps what it should in every host
+is tested with all other filters (test_filters.py, test_pymeshlab.py, test_meshlab_2020.py)."""
 
 import numpy as np
 import pymeshlab
