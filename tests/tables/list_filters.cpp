@@ -63,9 +63,11 @@ private:
 };
 
 multires::Layer sphere() {
+    multires::Layer layer;
     for (auto& [name, mesh] : multires::shapes::every_class())
-        if (name == "irregular_sphere") return {std::move(mesh), {}, {}, {}, {}};
-    throw std::logic_error("irregular_sphere is gone");
+        if (name == "irregular_sphere") layer.mesh = std::move(mesh);
+    if (layer.mesh.positions.empty()) throw std::logic_error("irregular_sphere is gone");
+    return layer;
 }
 
 }  // namespace
