@@ -111,7 +111,7 @@ public:
     /// The least angle and the least distance that Taubin's smoothing reaches with any of these numbers of steps.
     Error best_taubin(const Positions& noisy) const {
         Error best{180, 1e300, 0, 0};
-        for (const int steps : {2, 5, 10, 20, 35, 50, 80}) {
+        for (const int steps : {5, 10, 20, 40, 70}) {
             const Error e = error_of(taubin(mesh_, noisy, steps));
             best.angle = std::min(best.angle, e.angle);
             best.rms = std::min(best.rms, e.rms);
