@@ -100,7 +100,7 @@ Positions by_threshold(const Layer& layer, const DenoiseOptions& options, double
     Positions mean(layer.mesh.positions.size(), Vec3::Zero());
     for (int spin = 0; spin < options.cycle_spins; ++spin) {
         PyramidOptions o = options.pyramid;
-        o.seed = spin;
+        o.seed = options.pyramid.seed + spin;
         // The first hierarchy is the one that is kept; the others are different and thrown away.
         Session part;
         part.progress =
