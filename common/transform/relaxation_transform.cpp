@@ -97,6 +97,7 @@ public:
             out.detail.emplace_back();
             analyse_level(k, f, out.detail.back());
         }
+        f.values.shrink_to_fit();
         out.base = std::move(f);
         return out;
     }
@@ -126,37 +127,38 @@ private:
         return options_.scheme == Scheme::guskov && options_.local_frames && f.has_positions && f.width >= 3;
     }
 
-    /// From values of the fine level to those of the coarse one; stores the details.
+    /// From values of the fine level to those of the coarse one, in place; stores the details. Touches only the rows
+    /// that the level has: with one vertex per level there are few.
     void analyse_level(std::size_t k, Field& f, Coefficients::Detail& d) const {
         const Level& level = h_.levels[k];
         const int width = f.width;
-        Field g = f;  // c on even vertices, later the odd ones' f or prediction
+        const auto even_vertex = [&](Index r) { return level.even.vertex(r); };
+        // The details start as the values themselves, while f becomes g of the header.
+        d.odd = Field(level.odd.rows(), width);
+        d.even = Field(level.even.rows(), width);
+        parallel_for(d.odd.rows(), [&](Index r) { std::copy_n(f.row(level.coarse + r), width, d.odd.row(r)); });
+        parallel_for(d.even.rows(), [&](Index r) { std::copy_n(f.row(even_vertex(r)), width, d.even.row(r)); });
         Field relaxed(level.even.rows(), width);
         if (options_.presmooth > 0) {
-            relax_rows(even_[k], f, relaxed, [&](Index r) { return level.even.vertex(r); });
+            relax_rows(even_[k], f, relaxed, even_vertex);
             parallel_for(level.even.rows(), [&](Index r) {
-                double* c = g.row(level.even.vertex(r));
+                double* c = f.row(even_vertex(r));
                 for (int i = 0; i < width; ++i) c[i] += options_.presmooth * (relaxed.row(r)[i] - c[i]);
             });
         }
         const bool frames = framed(f);
         if (frames) d.odd_framed.resize(level.odd.rows()), d.even_framed.resize(level.even.rows());
-        d.odd = Field(level.odd.rows(), width);
-        predict_odd(k, g, [&](Index r, const double* predicted, const Frame* frame) {
-            const double* value = f.row(level.coarse + r);
-            store(value, predicted, frame, width, d.odd.row(r), d.odd_framed, r);
-            if (options_.scheme == Scheme::guskov) std::copy_n(predicted, width, g.row(level.coarse + r));
+        predict_odd(k, f, [&](Index r, const double* predicted, const Frame* frame) {
+            store(d.odd.row(r), predicted, frame, width, d.odd_framed, r);
+            if (options_.scheme == Scheme::guskov) std::copy_n(predicted, width, f.row(level.coarse + r));
         });
-        relax_rows(even_[k], g, relaxed, [&](Index r) { return level.even.vertex(r); });
-        d.even = Field(level.even.rows(), width);
+        relax_rows(even_[k], f, relaxed, even_vertex);
         parallel_for(level.even.rows(), [&](Index r) {
             Frame frame;
-            if (frames) frame = frame_of(level.even, r, g);
-            store(f.row(level.even.vertex(r)), relaxed.row(r), frames ? &frame : nullptr, width, d.even.row(r),
-                  d.even_framed, r);
+            if (frames) frame = frame_of(level.even, r, f);
+            store(d.even.row(r), relaxed.row(r), frames ? &frame : nullptr, width, d.even_framed, r);
         });
-        g.values.resize(static_cast<std::size_t>(level.coarse) * width);
-        f = std::move(g);
+        f.values.resize(static_cast<std::size_t>(level.coarse) * width);
     }
 
     /// The inverse of analyse_level with the details multiplied by `gain`.
@@ -248,9 +250,9 @@ private:
 
     /// A detail longer than its ring is wide stays in world axes: what rounding turns the frame by would move the
     /// vertex by more than it moved the ring, and grow from level to level.
-    static void store(const double* value, const double* predicted, const Frame* frame, int width, double* detail,
+    static void store(double* detail, const double* predicted, const Frame* frame, int width,
                       std::vector<std::uint8_t>& framed, Index r) {
-        for (int c = 0; c < width; ++c) detail[c] = value[c] - predicted[c];
+        for (int c = 0; c < width; ++c) detail[c] -= predicted[c];
         if (!frame) return;
         const Vec3 world(detail[0], detail[1], detail[2]);
         framed[r] = world.squaredNorm() <= detail_limit * detail_limit * frame->size * frame->size;
