@@ -1,7 +1,7 @@
 #pragma once
 
-#include "hierarchy/rings.h"
 #include "mesh/mesh.h"
+#include "mesh/rings.h"
 
 #include <functional>
 #include <vector>

@@ -1,7 +1,7 @@
 #include "hierarchy/independent_sets.h"
 
 #include "hierarchy/collapse.h"
-#include "hierarchy/radix_sort.h"
+#include "mesh/radix_sort.h"
 #include "parallel/parallel.h"
 
 #include <algorithm>

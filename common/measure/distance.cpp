@@ -1,8 +1,8 @@
 #include "measure/distance.h"
 
-#include "hierarchy/radix_sort.h"
 #include "measure/measure.h"
 #include "measure/reduce.h"
+#include "mesh/radix_sort.h"
 #include "parallel/parallel.h"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 #pragma once
 
-#include "hierarchy/rings.h"
 #include "mesh/error.h"
 #include "mesh/mesh.h"
+#include "mesh/rings.h"
 
 namespace multires {
 

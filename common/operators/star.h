@@ -1,6 +1,6 @@
 #pragma once
 
-#include "hierarchy/rings.h"
+#include "mesh/rings.h"
 
 #include <vector>
 

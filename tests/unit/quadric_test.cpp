@@ -1,6 +1,6 @@
 #include "hierarchy/quadric.h"
 
-#include "hierarchy/radix_sort.h"
+#include "mesh/radix_sort.h"
 
 #include "random.h"
 
