@@ -2,6 +2,7 @@
 
 #include "hierarchy/collapse.h"
 #include "measure/measure.h"
+#include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
 #include "parallel/parallel.h"
 
@@ -108,19 +109,7 @@ std::vector<double> wedge_details(const Layer& layer, const Hierarchy& h, Operat
     return detail;
 }
 
-Field unit_normals(const Layer& layer) {
-    Positions normal(layer.mesh.positions.size(), Vec3::Zero());
-    for (const Face& f : layer.mesh.faces) {
-        const Vec3& a = layer.mesh.positions[f[0]];
-        const Vec3 n = (layer.mesh.positions[f[1]] - a).cross(layer.mesh.positions[f[2]] - a);
-        for (const Index v : f) normal[v] += n;
-    }
-    for (Vec3& n : normal) {
-        const double length = n.norm();
-        if (length > 0) n /= length;
-    }
-    return field_of(normal);
-}
+Field unit_normals(const Layer& layer) { return field_of(vertex_normals(layer.mesh.faces, layer.mesh.positions)); }
 
 const Attribute& attribute(const Layer& layer, AttributeKind kind, const char* message) {
     for (const Attribute& a : layer.attributes)

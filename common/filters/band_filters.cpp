@@ -1,6 +1,7 @@
 #include "filters/band_filters.h"
 
 #include "measure/measure.h"
+#include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
 #include "mesh/validation.h"
 
@@ -33,21 +34,6 @@ Result filter_bands(const Layer& layer, const PyramidOptions& options, const Reg
     report_change(layer, after, result.report);
     result.positions = std::move(after);
     return result;
-}
-
-/// Unit normals of all vertices: the area vectors of their faces.
-std::vector<Vec3> vertex_normals(const Mesh& mesh) {
-    std::vector<Vec3> normal(mesh.positions.size(), Vec3::Zero());
-    for (const Face& f : mesh.faces) {
-        const Vec3& a = mesh.positions[f[0]];
-        const Vec3 n = (mesh.positions[f[1]] - a).cross(mesh.positions[f[2]] - a);
-        for (const Index v : f) normal[v] += n;
-    }
-    for (Vec3& n : normal) {
-        const double length = n.norm();
-        if (length > 0) n /= length;
-    }
-    return normal;
 }
 
 }  // namespace
@@ -106,7 +92,8 @@ Result detail_quality(const Layer& layer, const DetailOptions& options, Session&
     const std::vector<double> gains = band_gains(*pyramid, options.band, box_diagonal(layer), 0);
     session.progress.report(0.9, "Measuring the details");
     const Positions without = pyramid->synthesise(gains);
-    const std::vector<Vec3> normal = options.signed_normal ? vertex_normals(layer.mesh) : std::vector<Vec3>();
+    const std::vector<Vec3> normal =
+        options.signed_normal ? vertex_normals(layer.mesh.faces, layer.mesh.positions) : std::vector<Vec3>();
     std::vector<double> detail(without.size());
     for (std::size_t i = 0; i < detail.size(); ++i) {
         const Vec3 d = layer.mesh.positions[i] - without[i];

@@ -3,6 +3,7 @@
 #include "filters/band.h"
 #include "filters/denoise_threshold.h"
 #include "measure/measure.h"
+#include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
 #include "mesh/validation.h"
 #include "normals/normal_field.h"
@@ -75,11 +76,7 @@ void restore_volume(const Mesh& before, const std::vector<double>& weights, Posi
     const Vec3 apex = bounding_box(before.positions).center();
     const double wanted = surface(before.faces, before.positions, apex).volume;
     for (int step = 0; step < 3; ++step) {
-        std::vector<Vec3> normal(after.size(), Vec3::Zero());
-        for (const Face& f : before.faces) {
-            const Vec3 n = (after[f[1]] - after[f[0]]).cross(after[f[2]] - after[f[0]]);
-            for (const Index v : f) normal[v] += n;
-        }
+        std::vector<Vec3> normal = vertex_area_vectors(before.faces, after);
         // A sixth of the sum is how the volume grows with the vertex.
         double gained = 0;
         for (std::size_t i = 0; i < after.size(); ++i) {

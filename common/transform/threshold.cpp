@@ -5,7 +5,7 @@
 namespace multires {
 namespace {
 
-/// Sums of squares of the rows' components.
+/// Root mean square of all components.
 double rms(const Field& f) {
     double sum = 0;
     for (const double v : f.values) sum += v * v;

@@ -3,9 +3,9 @@
 #include "filters/attributes.h"
 
 #include "fixtures.h"
+#include "reported.h"
 
 #include <string>
-#include <variant>
 
 /// What the tests of attribute relaxation share: layers with every kind of attribute.
 namespace multires::fixtures {
@@ -39,14 +39,6 @@ inline AttributeChoice everything() { return {true, true, true, true, true, ""};
 inline Result relax(const Layer& layer, const AttributeRelaxationOptions& options) {
     Session session;
     return relax_attributes(layer, options, session);
-}
-
-template <class T>
-T reported(const Result& result, const std::string& key) {
-    for (const Report::Entry& e : result.report.entries())
-        if (e.key == key) return std::get<T>(e.value);
-    ADD_FAILURE() << "no " << key;
-    return T();
 }
 
 inline double random_value(Index v, int k) {

@@ -1,6 +1,7 @@
 #include "filters/attributes_denoise.h"
 
 #include "fixtures.h"
+#include "reported.h"
 
 #include <cmath>
 #include <limits>
@@ -65,14 +66,6 @@ const Scene& scene() {
 Result denoise(const Layer& layer, const AttributeDenoiseOptions& options) {
     Session session;
     return denoise_attributes(layer, options, session);
-}
-
-template <class T>
-T reported(const Result& result, const std::string& key) {
-    for (const Report::Entry& e : result.report.entries())
-        if (e.key == key) return std::get<T>(e.value);
-    ADD_FAILURE() << "no " << key;
-    return T();
 }
 
 AttributeDenoiseOptions of_quality() {
