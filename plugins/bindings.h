@@ -3,6 +3,7 @@
 #include "table.h"
 
 #include "filters/band.h"
+#include "filters/original.h"
 #include "filters/region.h"
 
 /// Bindings of the option structs that several filters share, and the citations of their info texts.
@@ -91,6 +92,16 @@ inline void bind_region(Parameters& p, Region& region) {
                "Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are "
                "clamped.",
                0, 1, false, "Region"});
+}
+
+inline void bind_relative_to(Parameters& p, RelativeTo& relative_to) {
+    p.choice("relative_to", relative_to, {"current shape", "original"},
+             {"Relative to",
+              "Current shape: the filter changes the mesh as it is now. Original: it starts again from the shape the "
+              "mesh had before any Multiresolution filter moved it, so that changes do not add up, and values that "
+              "change nothing (gains of 1) bring exactly that shape back. Outside the selection the mesh stays as it "
+              "is. The original is kept with the layer until something else changes the mesh; files do not hold it.",
+              0, 1, false, "Region"});
 }
 
 inline void bind_unit(Parameters& p, Unit& unit) {

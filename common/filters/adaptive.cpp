@@ -13,10 +13,6 @@
 namespace multires {
 namespace {
 
-void require(bool ok, const std::string& message) {
-    if (!ok) throw InputError(message);
-}
-
 constexpr int attributes = 5;
 struct NamedThreshold {
     const char* name;

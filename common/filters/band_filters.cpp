@@ -15,20 +15,18 @@ void require_finite(double value, const std::string& name) {
     if (!std::isfinite(value)) throw InputError(name + " must be a number");
 }
 
-/// The story of every band filter: pyramid, gains, synthesis, region, report.
-template <class Gains>
-Result filter_bands(const Layer& layer, const PyramidOptions& options, const Region& region, Session& session,
-                    const Gains& gains_of) {
+/// The story of every band filter: start, pyramid, gains, synthesis, region, report.
+template <class Options, class Gains>
+Result filter_bands(const Layer& layer, const Options& options, Session& session, const Gains& gains_of) {
     Result result;
-    const std::vector<double> weights = region_weights(layer, region);
-    const auto pyramid = pyramid_of(layer, options, session, result.report);
-    const std::vector<double> gains = gains_of(*pyramid);
+    const std::vector<double> weights = region_weights(layer, options.region);
+    const Start start(layer, options.relative_to, session, result.report);
+    const auto pyramid = pyramid_of(start.layer(), options.pyramid, session, result.report);
+    const std::vector<double> gains = gains_of(start.layer(), *pyramid);
     session.progress.report(0.9, "Putting the levels together");
-    Positions after = layer.mesh.positions;
-    if (std::any_of(gains.begin(), gains.end(), [](double g) { return g != 1; })) {
-        after = pyramid->synthesise(gains);
-        blend(layer.mesh.positions, weights, after);
-    }
+    const bool unchanged = std::all_of(gains.begin(), gains.end(), [](double g) { return g == 1; });
+    Positions after = unchanged ? start.layer().mesh.positions : pyramid->synthesise(gains);
+    blend(layer.mesh.positions, weights, after);
     session.progress.report(0.97, "Measuring the change");
     result.report.add("gains", gains);
     report_change(layer, after, result.report);
@@ -47,14 +45,15 @@ Result low_pass(const Layer& layer, const LowPassOptions& options, Session& sess
     const bool vertices = options.unit == Unit::vertices;
     band.finest = vertices ? 1e300 : 0;
     band.coarsest = options.cutoff;
-    return filter_bands(layer, options.pyramid, options.region, session,
-                        [&](const KeptPyramid& pyramid) { return band_gains(pyramid, band, box_diagonal(layer), 0); });
+    return filter_bands(layer, options, session, [&](const Layer& start, const KeptPyramid& pyramid) {
+        return band_gains(pyramid, band, box_diagonal(start), 0);
+    });
 }
 
 Result scale_band(const Layer& layer, const BandOptions& options, Session& session) {
     require_finite(options.gain, "gain");
-    return filter_bands(layer, options.pyramid, options.region, session, [&](const KeptPyramid& pyramid) {
-        return band_gains(pyramid, options.band, box_diagonal(layer), options.gain);
+    return filter_bands(layer, options, session, [&](const Layer& start, const KeptPyramid& pyramid) {
+        return band_gains(pyramid, options.band, box_diagonal(start), options.gain);
     });
 }
 
@@ -70,8 +69,8 @@ std::array<double, equalizer_bands + 1> equalizer_limits(const Layer& layer, con
 
 Result equalizer(const Layer& layer, const EqualizerOptions& options, Session& session) {
     for (int i = 0; i < equalizer_bands; ++i) require_finite(options.gain[i], "gain_" + std::to_string(i + 1));
-    return filter_bands(layer, options.pyramid, options.region, session, [&](const KeptPyramid& pyramid) {
-        const auto limit = equalizer_limits(layer, options.pyramid);
+    return filter_bands(layer, options, session, [&](const Layer& start, const KeptPyramid& pyramid) {
+        const auto limit = equalizer_limits(start, options.pyramid);
         std::vector<double> gains(pyramid.levels().size() - 1, 1);
         for (int i = 0; i < equalizer_bands; ++i) {
             if (options.gain[i] == 1) continue;
@@ -109,25 +108,27 @@ Result detail_quality(const Layer& layer, const DetailOptions& options, Session&
 }
 
 Result unsharp(const Layer& layer, const UnsharpOptions& options, Session& session) {
-    require_usable(layer.mesh);
+    Result result;
+    const Start start(layer, options.relative_to, session, result.report);
+    const Mesh& mesh = start.layer().mesh;
+    require_usable(mesh);
     require_finite(options.xi, "xi");
-    if (options.iterations < 1) throw InputError("iterations must be at least 1");
+    require(options.iterations >= 1, "iterations must be at least 1");
     const std::vector<double> weights = region_weights(layer, options.region);
     session.progress.report(0, "Computing weights");
-    Rings rings = vertex_rings(layer.mesh);
-    mark_features(rings, layer, options.features, options.feature_angle);
+    Rings rings = vertex_rings(mesh);
+    mark_features(rings, start.layer(), options.features, options.feature_angle);
     if (uses_flaps(options.op)) find_flaps(rings);
     RelaxationOptions relaxation_options;
     relaxation_options.op = options.op;
-    const Rows rows = relaxation(rings, layer.mesh.positions, relaxation_options);
-    Positions smooth = layer.mesh.positions;
+    const Rows rows = relaxation(rings, mesh.positions, relaxation_options);
+    Positions smooth = mesh.positions;
     for (int i = 0; i < options.iterations; ++i) {
         session.progress.report(0.2 + 0.7 * i / options.iterations, "Relaxing");
         smooth = relaxed(rings, rows, smooth);
     }
     session.progress.report(0.9, "Measuring the change");
-    Result result;
-    Positions after = layer.mesh.positions;
+    Positions after = mesh.positions;
     if (options.xi != 1)
         for (std::size_t i = 0; i < after.size(); ++i) after[i] = smooth[i] + options.xi * (after[i] - smooth[i]);
     blend(layer.mesh.positions, weights, after);

@@ -1,12 +1,17 @@
 #pragma once
 
 #include "filters/band.h"
+#include "filters/original.h"
 #include "filters/region.h"
 
 #include <array>
 
 /// Filters that scale details by scale (Guskov et al. 1999, sections 4.1 and 4.2; Roy et al. 2003, section 4.1).
 /// All take a layer and give new positions and a report; they throw InputError for bad input or limits.
+///
+/// What is computed is a function of the shape they start from (see original.h) alone, its limits in percent and the
+/// equalizer's bands included. The region decides where that replaces the current shape, and the report compares the
+/// two.
 namespace multires {
 
 /// Removes everything finer than `cutoff`.
@@ -15,6 +20,7 @@ struct LowPassOptions {
     Unit unit = Unit::wavelength;
     double softness = 0;  ///< octaves
     Region region;
+    RelativeTo relative_to = RelativeTo::current;
     PyramidOptions pyramid;
 };
 Result low_pass(const Layer& layer, const LowPassOptions& options, Session& session);
@@ -24,6 +30,7 @@ struct BandOptions {
     Band band;
     double gain = 0;  ///< finite
     Region region;
+    RelativeTo relative_to = RelativeTo::current;
     PyramidOptions pyramid;
 };
 Result scale_band(const Layer& layer, const BandOptions& options, Session& session);
@@ -36,6 +43,7 @@ struct EqualizerOptions {
     std::array<double, equalizer_bands> gain{1, 1, 1, 1, 1, 1, 1, 1};  ///< finite
     double softness = 0.5;                                             ///< octaves
     Region region;
+    RelativeTo relative_to = RelativeTo::current;
     PyramidOptions pyramid;
 };
 Result equalizer(const Layer& layer, const EqualizerOptions& options, Session& session);
@@ -59,6 +67,7 @@ struct UnsharpOptions {
     int iterations = 10;  ///< k >= 1
     double xi = 2;        ///< finite
     Region region;
+    RelativeTo relative_to = RelativeTo::current;
     Features features = Features::none;
     double feature_angle = 40;  ///< degrees
 };

@@ -16,10 +16,6 @@
 namespace multires {
 namespace {
 
-void require(bool ok, const char* message) {
-    if (!ok) throw InputError(message);
-}
-
 void check(const DenoiseOptions& o) {
     require(std::isfinite(o.threshold) && o.threshold >= 0, "threshold must be a number, 0 or more");
     require(std::isfinite(o.strength) && o.strength > 0, "strength must be more than 0");
@@ -125,27 +121,39 @@ double noise_deviation(const Mesh& mesh) {
 }
 
 Result denoise(const Layer& layer, const DenoiseOptions& options, Session& session) {
-    require_usable(layer.mesh);
+    Result result;
+    const Start from(layer, options.relative_to, session, result.report);
+    const Layer& start = from.layer();
+    require_usable(start.mesh);
     check(options);
-    std::vector<double> weights = region_weights(layer, options.region);
+    const std::vector<double> weights = region_weights(layer, options.region);
     const std::vector<double> confidence = confidence_of(layer, options);
 
-    Result result;
-    const double deviation = noise_deviation(layer.mesh);
+    const double deviation = noise_deviation(start.mesh);
     result.report.add("noise", deviation, "mesh units");
     const double given =
-        options.unit == ThresholdUnit::percent ? options.threshold / 100 * box_diagonal(layer) : options.threshold;
+        options.unit == ThresholdUnit::percent ? options.threshold / 100 * box_diagonal(start) : options.threshold;
+    std::vector<double> movement = weights;  // how far each vertex may follow, and be shifted
     Positions after;
     if (options.method == DenoiseMethod::normal_field) {
-        after = by_normal_field(layer, options, given, session, result.report);
+        after = by_normal_field(start, options, given, session, result.report);
         // Here confidence scales the movement; thresholding takes it as a local threshold.
-        if (!confidence.empty() && weights.empty()) weights.assign(confidence.size(), 1);
-        for (std::size_t i = 0; i < confidence.size(); ++i) weights[i] *= 1 - confidence[i];
+        std::vector<double> doubt = confidence;
+        for (double& c : doubt) c = 1 - c;
+        blend(start.mesh.positions, doubt, after);
+        if (movement.empty())
+            movement = doubt;
+        else
+            for (std::size_t i = 0; i < doubt.size(); ++i) movement[i] *= doubt[i];
     } else {
-        after = by_threshold(layer, options, given, deviation, confidence, session, result.report);
+        after = by_threshold(start, options, given, deviation, confidence, session, result.report);
     }
     blend(layer.mesh.positions, weights, after);
-    if (options.keep_volume) restore_volume(layer.mesh, weights, after);
+    if (options.keep_volume) {
+        Mesh before = start.mesh;
+        blend(layer.mesh.positions, weights, before.positions);
+        restore_volume(before, movement, after);
+    }
     session.progress.report(0.97, "Measuring the change");
     report_change(layer, after, result.report);
     result.positions = std::move(after);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "filters/original.h"
 #include "filters/pyramid.h"
 #include "filters/region.h"
 #include "transform/threshold.h"
@@ -40,7 +41,8 @@ struct DenoiseOptions {
     /// Vertex quality as confidence: 1 is trusted and stays, 0 gets the full threshold; clamped to [0, 1].
     bool confidence = false;
     Region region;
-    PyramidOptions pyramid;  ///< for thresholding
+    RelativeTo relative_to = RelativeTo::current;  ///< the noise is measured there, and its volume kept
+    PyramidOptions pyramid;                        ///< for thresholding
 };
 
 /// Standard deviation of the noise along the normals, mesh units: median of the second-order differences over the edges

@@ -82,13 +82,17 @@ struct Result {
 };
 
 class KeptPyramid;
+class Original;
 
-/// The part of a call that outlives it: progress, and the pyramid that travels with the mesh.
+/// The part of a call that outlives it: progress, and what travels with the mesh.
 struct Session {
     Progress progress;
     /// The pyramid kept with the layer by an earlier call of any of our plugins; may be null or stale (its content
     /// hash decides). A filter that builds one puts it here; the host keeps it with the mesh if the call succeeds.
     std::shared_ptr<const KeptPyramid> pyramid;
+    /// The shape the layer had before an earlier call of any of our plugins first moved it; null if none did. The host
+    /// keeps it up to date (see original.h).
+    std::shared_ptr<const Original> original;
 };
 
 }  // namespace multires

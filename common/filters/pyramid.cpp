@@ -14,10 +14,6 @@
 namespace multires {
 namespace {
 
-void require(bool ok, const std::string& message) {
-    if (!ok) throw InputError(message);
-}
-
 void check(const PyramidOptions& o) {
     require(o.presmooth >= 0 && o.presmooth <= 1, "presmooth must be between 0 and 1");
     require(o.sets_per_level >= 1, "sets_per_level must be at least 1");
@@ -167,7 +163,7 @@ void mark_features(Rings& rings, const Layer& layer, Features features, double a
     }
 }
 
-KeptPyramid::Hash content_hash(const Layer& layer, const PyramidOptions& o) {
+ContentHash content_hash(const Layer& layer, const PyramidOptions& o) {
     const double options[] = {static_cast<double>(o.scheme),
                               static_cast<double>(o.op),
                               o.presmooth,
@@ -179,16 +175,15 @@ KeptPyramid::Hash content_hash(const Layer& layer, const PyramidOptions& o) {
                               o.normal_limit,
                               static_cast<double>(o.features),
                               o.features == Features::angle ? o.feature_angle : 0,
-                              static_cast<double>(o.seed),
-                              static_cast<double>(layer.mesh.positions.size())};
+                              static_cast<double>(o.seed)};
+    const ContentHash shape = shape_hash(layer.mesh.positions, layer.mesh.faces);
     XXH3_state_t state;
     XXH3_128bits_reset(&state);
     const auto add = [&](const void* data, std::size_t bytes) {
         if (bytes) XXH3_128bits_update(&state, data, bytes);
     };
     add(options, sizeof options);
-    add(layer.mesh.positions.data(), layer.mesh.positions.size() * sizeof(Vec3));
-    add(layer.mesh.faces.data(), layer.mesh.faces.size() * sizeof(Face));
+    add(shape.data(), sizeof shape);
     if (o.features == Features::non_faux_edges) add(layer.faux_edges.data(), layer.faux_edges.size());
     if (o.features == Features::selected_edges) add(layer.selected_edges.data(), layer.selected_edges.size());
     const XXH128_hash_t hash = XXH3_128bits_digest(&state);

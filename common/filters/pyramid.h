@@ -2,9 +2,8 @@
 
 #include "filters/filter.h"
 #include "hierarchy/hierarchy.h"
+#include "mesh/shape_hash.h"
 #include "transform/relaxation_transform.h"
-
-#include <array>
 
 namespace multires {
 
@@ -42,8 +41,6 @@ struct LevelInfo {
 /// A pyramid and the mesh it belongs to. Immutable, so that filters and layers can share it.
 class KeptPyramid {
 public:
-    using Hash = std::array<std::uint64_t, 2>;
-
     KeptPyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress);
 
     const Hierarchy& hierarchy() const { return hierarchy_; }
@@ -51,13 +48,13 @@ public:
     const Coefficients& coefficients() const { return coefficients_; }
     /// Levels 0..L: one more than there are sets of details; the last is the base.
     const std::vector<LevelInfo>& levels() const { return levels_; }
-    const Hash& hash() const { return hash_; }
+    const ContentHash& hash() const { return hash_; }
 
     /// Positions with the details of each level multiplied by a gain, in order of the input.
     Positions synthesise(const std::vector<double>& gain) const;
 
 private:
-    Hash hash_;
+    ContentHash hash_;
     Hierarchy hierarchy_;
     std::unique_ptr<Transform> transform_;
     Coefficients coefficients_;
@@ -65,7 +62,7 @@ private:
 };
 
 /// Hash of all a pyramid depends on: positions, faces, options, and the edges that are features.
-KeptPyramid::Hash content_hash(const Layer& layer, const PyramidOptions& options);
+ContentHash content_hash(const Layer& layer, const PyramidOptions& options);
 
 /// Marks the feature edges of a layer in its rings.
 /// @throws InputError if the layer has none of the marks asked for, or the angle is out of range

@@ -9,4 +9,11 @@ struct InputError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// @param message  a string or a literal
+/// @throws InputError  with the message unless `ok`
+template <class Message>
+void require(bool ok, const Message& message) {
+    if (!ok) throw InputError(message);
+}
+
 }  // namespace multires

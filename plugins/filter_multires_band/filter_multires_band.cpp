@@ -23,6 +23,7 @@ void bind_low_pass(Parameters& p, LowPassOptions& o) {
             0, 1e30, false, "Band"});
     bind_softness(p, o.softness);
     bind_region(p, o.region);
+    bind_relative_to(p, o.relative_to);
     bind_pyramid(p, o.pyramid);
 }
 
@@ -43,6 +44,7 @@ BandOptions band_defaults(const Layer* layer) {
 void bind_stop_band(Parameters& p, BandOptions& o) {
     bind_band(p, o.band);
     bind_region(p, o.region);
+    bind_relative_to(p, o.relative_to);
     bind_pyramid(p, o.pyramid);
 }
 
@@ -98,6 +100,7 @@ void bind_equalizer(Parameters& p, EqualizerRow& o) {
                   4, false, "Bands, fine to coarse"});
     bind_softness(p, o.softness);
     bind_region(p, o.region);
+    bind_relative_to(p, o.relative_to);
     bind_pyramid(p, o.pyramid);
 }
 
@@ -119,6 +122,7 @@ void bind_unsharp(Parameters& p, UnsharpOptions& o) {
               {"Relaxation steps", "More steps reach coarser structure; each costs the same.", 1, 10000});
     bind_operator(p, o.op, "Relaxation");
     bind_region(p, o.region);
+    bind_relative_to(p, o.relative_to);
     bind_features(p, o.features, o.feature_angle);
 }
 

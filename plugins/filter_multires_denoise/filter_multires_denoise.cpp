@@ -49,6 +49,7 @@ void bind_denoise(Parameters& p, DenoiseOptions& o) {
                "Vertex quality says how far a vertex is trusted: 1 stays, 0 gets the full threshold.", 0, 1, false,
                "Region"});
     bind_region(p, o.region);
+    bind_relative_to(p, o.relative_to);
     const char* details = "Thresholding";
     p.integer("finest_level", o.finest_level,
               {"Finest level", "Thresholding: first level whose details are shrunk, 0 is the finest.", 0, 1000000000,

@@ -4,6 +4,9 @@
 #include "host/kept_pyramid.h"
 #include "host/parameters.h"
 
+#include "filters/original.h"
+
+#include <array>
 #include <chrono>
 #include <iomanip>
 #include <new>
@@ -14,10 +17,6 @@ namespace multires::host {
 namespace {
 
 using plugin::Filter;
-
-void require(bool condition, const char* message) {
-    if (!condition) throw InputError(message);
-}
 
 MeshModel& current_mesh(const Filter& filter, MeshDocument& document) {
     MeshModel* model = document.mm();
@@ -45,6 +44,16 @@ Progress progress_of(vcg::CallBackPos* callback) {
         last = percent, when = now;
         return callback(percent, what);
     });
+}
+
+/// To the precision that the host stores.
+void round_to_host(Positions& positions) {
+    // By way of memory: GCC 12 drops a conversion to float and straight back where it vectorises at -O3.
+    std::vector<std::array<Scalarm, 3>> stored(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        for (int k = 0; k < 3; ++k) stored[i][k] = static_cast<Scalarm>(positions[i][k]);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        for (int k = 0; k < 3; ++k) positions[i][k] = stored[i][k];
 }
 
 std::string text(const Report::Value& value) {
@@ -126,11 +135,18 @@ Report apply(const Filter& filter, const RichParameterList& list, MeshDocument& 
 
     Session session;
     session.progress = progress_of(callback);
-    session.pyramid = kept_pyramid(model.cm);
+    const Kept before = kept(model.cm);
+    session.pyramid = before.pyramid;
+    session.original = before.original;
     ParameterReader reader(list);
     Result result = filter.run(reader, flat.layer, session);
 
-    write_result(document, model, flat, result, session.pyramid);
+    Kept after{session.pyramid, session.original};
+    if (result.positions) {
+        round_to_host(*result.positions);  // so that the shape is known again when it is read
+        after.original = original_after(session.original.get(), flat.layer.mesh, *result.positions);
+    }
+    write_result(document, model, flat, result, after);
     return std::move(result.report);
 }
 

@@ -94,8 +94,7 @@ VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model) {
     return to_layer(model.cm, request);
 }
 
-void write_result(MeshDocument& document, MeshModel& model, const VcgLayer& flat, Result& result,
-                  const PyramidPointer& pyramid) {
+void write_result(MeshDocument& document, MeshModel& model, const VcgLayer& flat, Result& result, const Kept& to_keep) {
     // What can fail comes first, and is taken back by the destructors if anything after it does.
     std::optional<NewLayer> layer;
     if (result.layer) layer.emplace(document, model, flat, *result.layer);
@@ -103,7 +102,7 @@ void write_result(MeshDocument& document, MeshModel& model, const VcgLayer& flat
         for (const std::string& name : layer->left_out())
             result.report.say("Custom attribute \"" + name + "\" has a type that cannot be copied to the new layer.");
     NewElements elements(model, result);
-    PyramidPointer* slot = pyramid ? &pyramid_slot(model.cm) : nullptr;
+    Kept* place = to_keep.pyramid || to_keep.original ? &slot(model.cm) : nullptr;
     LayerChanges changes;
     changes.positions = result.positions ? &*result.positions : nullptr;
     changes.quality = result.quality ? &*result.quality : nullptr;
@@ -112,7 +111,7 @@ void write_result(MeshDocument& document, MeshModel& model, const VcgLayer& flat
     write(model.cm, flat, changes);
 
     // From here on nothing can fail.
-    if (slot) *slot = pyramid;
+    if (place) *place = to_keep;
     if (result.positions) update_box_and_normals(model);
     elements.finish();
     if (layer) layer->finish();

@@ -5,13 +5,14 @@ namespace multires::host {
 /// What the attribute holds. A type of its own, and a named one: typeid tells it from anything else of that name and
 /// size, also across plugins.
 struct PyramidSlot {
-    PyramidPointer pyramid;
+    Kept kept;
 };
 
 namespace {
 
-// Change the number with the layout of KeptPyramid or of anything it holds: plugins of different builds may meet.
-constexpr const char* attribute_name = "multires_pyramid_1";
+// Change the number with the layout of KeptPyramid, Original or anything they hold: plugins of different builds may
+// meet.
+constexpr const char* attribute_name = "multires_pyramid_2";
 
 PyramidSlot* find_slot(const CMeshO& mesh) {
     for (const vcg::PointerToAttribute& a : mesh.mesh_attr)
@@ -22,16 +23,16 @@ PyramidSlot* find_slot(const CMeshO& mesh) {
 
 }  // namespace
 
-PyramidPointer kept_pyramid(const CMeshO& mesh) {
+Kept kept(const CMeshO& mesh) {
     const PyramidSlot* slot = find_slot(mesh);
-    return slot ? slot->pyramid : nullptr;
+    return slot ? slot->kept : Kept();
 }
 
-PyramidPointer& pyramid_slot(CMeshO& mesh) {
-    if (PyramidSlot* slot = find_slot(mesh)) return slot->pyramid;
+Kept& slot(CMeshO& mesh) {
+    if (PyramidSlot* slot = find_slot(mesh)) return slot->kept;
     using Allocator = vcg::tri::Allocator<CMeshO>;
     Allocator::DeletePerMeshAttribute(mesh, attribute_name);  // of the wrong type: see the header
-    return Allocator::AddPerMeshAttribute<PyramidSlot>(mesh, attribute_name)().pyramid;
+    return Allocator::AddPerMeshAttribute<PyramidSlot>(mesh, attribute_name)().kept;
 }
 
 }  // namespace multires::host

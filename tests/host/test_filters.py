@@ -462,6 +462,95 @@ def test_a_reused_pyramid_gives_the_same_result():
     np.testing.assert_array_equal(*results)
 
 
+# ---- relative to the original ----------------------------------------------------------------------------------------
+
+GAINS_OF_ONE = {"relative_to": "original", **{f"gain_{i}": 1 for i in range(1, 9)}}
+# What brings the original back with each filter; the others have no value that changes nothing.
+NEUTRAL = {
+    EQUALIZER: GAINS_OF_ONE,
+    ENHANCE: {"relative_to": "original", "gain": 1},
+    UNSHARP: {"relative_to": "original", "xi": 1},
+}
+
+
+def change_in_many_ways(ms):
+    for name in MOVING:
+        ms.apply_filter(name, **with_gains(name) | ({"gain_8": 2} if name == EQUALIZER else {}))
+
+
+@pytest.mark.parametrize("name", NEUTRAL)
+def test_the_original_comes_back_bit_for_bit(name):
+    ms = bunny()
+    mesh = ms.current_mesh()
+    before = mesh.vertex_matrix()
+    change_in_many_ways(ms)
+    assert not np.array_equal(mesh.vertex_matrix(), before)
+    ms.apply_filter(name, **NEUTRAL[name])
+    np.testing.assert_array_equal(mesh.vertex_matrix(), before)
+
+
+@every_moving
+def test_a_filter_relative_to_the_original_is_that_filter_on_it(name):
+    changed, fresh = bunny(), bunny()
+    change_in_many_ways(changed)
+    # The default limits are those of the shape the dialog is opened for.
+    limits = {LOW_PASS: {"cutoff": 0.02}, STOP_BAND: {"finest": 0.01, "coarsest": 0.04}}
+    limits[ENHANCE] = limits[STOP_BAND]
+    parameters = with_gains(name) | limits.get(name, {})
+    changed.apply_filter(name, relative_to="original", **parameters)
+    fresh.apply_filter(name, **parameters)
+    np.testing.assert_array_equal(changed.current_mesh().vertex_matrix(), fresh.current_mesh().vertex_matrix())
+
+
+def test_only_the_selection_goes_back_to_the_original():
+    ms = bunny()
+    mesh = ms.current_mesh()
+    before = mesh.vertex_matrix()
+    ms.apply_filter(LOW_PASS)
+    smooth = mesh.vertex_matrix()
+    ms.compute_selection_by_condition_per_vertex(condselect="x > 0")
+    selected = mesh.vertex_selection_array()
+    ms.apply_filter(EQUALIZER, **GAINS_OF_ONE)
+    np.testing.assert_array_equal(mesh.vertex_matrix(), np.where(selected[:, None], before, smooth))
+    np.testing.assert_array_equal(mesh.vertex_selection_array(), selected)
+
+
+@pytest.mark.parametrize("change", ["smooth", "scale", "delete"])
+def test_the_original_does_not_undo_what_others_did(change):
+    ms = bunny()
+    ms.apply_filter(LOW_PASS)
+    if change == "smooth":
+        ms.apply_coord_laplacian_smoothing()
+    elif change == "scale":
+        ms.compute_matrix_from_scaling_or_normalization(axisx=2, freeze=True)
+    else:
+        ms.compute_selection_by_condition_per_face(condselect="fi == 100")
+        ms.meshing_remove_selected_faces()
+    before = snapshot(ms)
+    with pytest.raises(Error, match="relative_to: something else has changed this mesh"):
+        ms.apply_filter(EQUALIZER, **GAINS_OF_ONE)
+    assert not differences(before, snapshot(ms))
+    # Filtered as it is, the changed mesh becomes the original.
+    ms.apply_filter(LOW_PASS)
+    ms.apply_filter(EQUALIZER, **GAINS_OF_ONE)
+    assert not differences(before["meshes"][0]["vertices"], ms.current_mesh().vertex_matrix())
+
+
+def test_files_and_copies_do_not_hold_the_original(tmp_path):
+    ms = bunny()
+    ms.apply_filter(LOW_PASS)
+    smooth = ms.current_mesh().vertex_matrix()
+    ms.save_current_mesh(str(tmp_path / "smooth.obj"))
+    ms.generate_copy_of_current_mesh()
+    ms.apply_filter(EQUALIZER, **GAINS_OF_ONE)
+    np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), smooth)
+    loaded = load(tmp_path / "smooth.obj")
+    before = loaded.current_mesh().vertex_matrix()
+    loaded.apply_filter(LOW_PASS)
+    loaded.apply_filter(EQUALIZER, **GAINS_OF_ONE)
+    np.testing.assert_array_equal(loaded.current_mesh().vertex_matrix(), before)
+
+
 # ---- adaptive reconstruction -----------------------------------------------------------------------------------------
 
 

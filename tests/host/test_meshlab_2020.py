@@ -67,9 +67,17 @@ def run(tree, display):
     return run
 
 
-def script(path, name, parameters):
-    """Writes a filter script. It names every parameter: Debian's meshlabserver aborts if two are missing."""
+def script(path, *filters):
+    """Writes a script of filters, pairs of name and parameters. It names every parameter: Debian's meshlabserver aborts
+    if two are missing."""
     root = ET.Element("FilterScript")
+    for name, parameters in filters:
+        add_filter(root, name, parameters)
+    path.write_text("<!DOCTYPE FilterScript>\n" + ET.tostring(root, encoding="unicode"))
+    return path
+
+
+def add_filter(root, name, parameters):
     element = ET.SubElement(root, "filter", name=name)
     rich = {"boolean": "RichBool", "integer": "RichInt", "real": "RichFloat", "slider": "RichDynamicFloat", "choice": "RichEnum", "text": "RichString"}
     for p in parameters:
@@ -82,18 +90,19 @@ def script(path, name, parameters):
             param.set("enum_cardinality", str(len(p["names"])))
             for i, text in enumerate(p["names"]):
                 param.set(f"enum_val{i}", text)
-    path.write_text("<!DOCTYPE FilterScript>\n" + ET.tostring(root, encoding="unicode"))
-    return path
 
 
 class Server:
-    """meshlabserver applying one filter to one mesh."""
+    """meshlabserver applying filters to one mesh."""
 
     def __init__(self, run, folder):
         self.run, self.folder, self.output = run, folder, folder / "out.ply"
 
     def apply(self, mesh, name, parameters, *layer):
-        mlx = script(self.folder / "script.mlx", name, parameters)
+        return self.apply_all(mesh, [(name, parameters)], *layer)
+
+    def apply_all(self, mesh, filters, *layer):
+        mlx = script(self.folder / "script.mlx", *filters)
         done = self.run("meshlabserver", "-i", mesh, "-s", mlx, "-o", self.output, *layer, "-m", "vc", "vq", "vn")
         return done.returncode, done.stdout
 
@@ -198,6 +207,25 @@ def test_filter_runs_in_meshlabserver(server, meshes, row):
     new_layer = row["changes"] & 64  # the last layer is what is saved
     assert new.vertex_number() <= old.vertex_number() if new_layer else new.vertex_number() == old.vertex_number()
     assert np.isfinite(new.vertex_matrix()).all()
+
+
+def with_values(name, **values):
+    """A filter of the tables and its parameters, some of them not at their defaults."""
+    row = next(f for f in FILTERS if f["python_name"].endswith(name))
+    assert values.keys() <= {p["name"] for p in row["parameters"]}
+    return row["name"], [{**p, "value": values.get(p["name"], p["value"])} for p in row["parameters"]]
+
+
+def test_the_original_comes_back_bit_for_bit_in_single_precision(server, meshes):
+    mesh = meshes / "irregular_sphere.ply"
+    many = [with_values(n) for n in ("low_pass", "multires_enhance", "unsharp", "coord_multires_denoise")]
+    ones = {f"gain_{i}": 1 for i in range(1, 9)}
+    code, log = server.apply_all(mesh, [*many, with_values("equalizer", relative_to=1, **ones)])
+    assert code == 0 and "its own original" not in log, log
+    before = np.float32(load(mesh).vertex_matrix())
+    np.testing.assert_array_equal(load(server.output).vertex_matrix(), before)
+    server.apply_all(mesh, [*many, with_values("equalizer", relative_to=0, **ones)])
+    assert not np.array_equal(load(server.output).vertex_matrix(), before)
 
 
 def test_the_menu_of_the_gui_has_every_filter(run, tmp_path):

@@ -91,7 +91,7 @@ TEST(KeptPyramid, IsNeverReusedAfterAChangeOfItsOptions) {
         [](PyramidOptions& o) { o.features = Features::non_faux_edges; },
         [](PyramidOptions& o) { o.features = Features::selected_edges; },
     };
-    std::set<KeptPyramid::Hash> hashes{content_hash(layer, {})};
+    std::set<ContentHash> hashes{content_hash(layer, {})};
     for (const auto& change : changes) {
         PyramidOptions options;
         change(options);
