@@ -14,15 +14,12 @@ import sys
 import numpy as np
 import pymeshlab
 
-import contact_sheet
+import rendering
+from measuring import BUILD, EQUALIZER_GAINS, PYRAMID, ROOT, arrays, load_plugins, table, with_noise
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
-PLUGINS = ROOT / "build/pymeshlab-2025.07/plugins"
 BUNNY = pathlib.Path(pymeshlab.__file__).parent / "tests/sample_meshes/bunny.obj"
 
 SECOND_SHEET = "denoise-attributes-adaptive.png"
-PYRAMID = "compute_multires_pyramid"
-EQUALIZER_GAINS = (0, 0, 1, 2.5, 2.5, 1, 1, 1)
 
 # Title, subtitle, filter, its parameters. What is not given is derived from the mesh.
 STEPS = (
@@ -45,23 +42,6 @@ OTHERS = (
 )  # fmt: skip
 
 
-def load_plugins(folder):
-    plugins = sorted(folder.glob("*.so"))
-    if not plugins:
-        sys.exit(f"No plugins in {folder}: run scripts/demo.sh, which builds them.")
-    for plugin in plugins:
-        pymeshlab.load_plugin(str(plugin))
-
-
-def table(rows, header):
-    """Markdown, columns aligned."""
-    cells = [header, *rows]
-    widths = [max(len(row[i]) for row in cells) for i in range(len(header))]
-    lines = ["| " + " | ".join(c.rjust(w) for c, w in zip(row, widths)) + " |" for row in cells]
-    lines.insert(1, "|" + "|".join("-" * (w + 1) + ":" for w in widths) + "|")
-    return "\n".join(lines) + "\n"
-
-
 def level_rows(report):
     """Level, vertices, wavelength, RMS detail; one row a level."""
     columns = (report["level"], report["vertices"], report["wavelength"], report["rms_detail"])
@@ -78,21 +58,18 @@ def report_row(title, report):
 
 
 def panel(title, subtitle, mesh, **look):
-    return contact_sheet.Panel(title, subtitle, mesh.vertex_matrix(), mesh.face_matrix(), **look)
+    return rendering.Panel(title, subtitle, mesh.vertex_matrix(), mesh.face_matrix(), **look)
 
 
 def add_input(document, kind):
     """A new layer made of the current one: a copy, with noise along the normals, or painted. Always the same."""
     mesh = document.current_mesh()
-    vertices, faces = mesh.vertex_matrix(), mesh.face_matrix()
-    random = np.random.default_rng(1)
+    vertices, faces = arrays(mesh)
     colors = None
     if kind == "noise":
-        edge = np.linalg.norm(vertices[faces] - vertices[np.roll(faces, 1, axis=1)], axis=2).mean()
-        normals = mesh.vertex_normal_matrix()
-        normals = normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
-        vertices = vertices + 0.2 * edge * random.standard_normal((len(vertices), 1)) * normals
+        vertices = with_noise(vertices, faces, "normals", 0.2, seed=1)
     if kind == "paint":
+        random = np.random.default_rng(1)
         height = (vertices - vertices.min(axis=0)) / np.ptp(vertices, axis=0).max()
         stripe = (np.floor(12 * height[:, :1]) % 2).astype(float)
         colors = stripe * [0.85, 0.45, 0.2, 1] + (1 - stripe) * [0.2, 0.45, 0.7, 1]
@@ -145,7 +122,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("mesh", nargs="?", type=pathlib.Path, default=BUNNY, help="default: the Stanford bunny")
     parser.add_argument("--output", type=pathlib.Path, default=ROOT / "demo-output")
-    parser.add_argument("--plugins", type=pathlib.Path, default=PLUGINS)
+    parser.add_argument("--plugins", type=pathlib.Path, default=BUILD / "plugins")
     parser.add_argument("--up", choices=("x", "y", "z", "-x", "-y", "-z"), help="axis that points up in the pictures")
     parser.add_argument("--tile", type=int, default=520, help="side of one picture, pixels")
     parser.add_argument("--small", type=pathlib.Path, help="also save the contact sheet here, and the second one beside it, below 300 KB")
@@ -168,15 +145,15 @@ def main():
     (output / "reports.md").write_text(report_table + "\n" + note)
     print(level_table, report_table, note, sep="\n")
 
-    camera = contact_sheet.three_quarter_camera(panels[0].vertices, panels[0].faces, arguments.up)
-    sheet = contact_sheet.contact_sheet(panels, camera, arguments.tile)
+    camera = rendering.three_quarter_camera(panels[0].vertices, panels[0].faces, arguments.up)
+    sheet = rendering.contact_sheet(panels, camera, arguments.tile)
     sheet.save(output / "contact-sheet.png", optimize=True)
     if arguments.small:
-        contact_sheet.save_small(sheet, arguments.small)
-    second = contact_sheet.contact_sheet(others, camera, arguments.tile)
+        rendering.save_small(sheet, arguments.small)
+    second = rendering.contact_sheet(others, camera, arguments.tile)
     second.save(output / SECOND_SHEET, optimize=True)
     if arguments.small:
-        contact_sheet.save_small(second, arguments.small.parent / SECOND_SHEET)
+        rendering.save_small(second, arguments.small.parent / SECOND_SHEET)
     print(f"Meshes, tables, contact-sheet.png and {SECOND_SHEET} are in {output}")
 
 

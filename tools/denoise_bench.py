@@ -24,44 +24,18 @@ import time
 
 import numpy as np
 import pymeshlab
-from demo import table
+from measuring import (BUILD, DENOISE, LAPLACIAN_20, ROOT, Setting, TAUBIN, TWO_STEPS, arrays, document, load_plugins,
+                       measures, read, run, table, with_noise)  # fmt: skip
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
 PAIRS = ROOT.parent / "shared/meshes/noisy"
-DENOISE = "apply_coord_multires_denoise"
 
-TAUBIN = [
-    ("apply_coord_taubin_smoothing", {"lambda_": 0.5, "mu": -0.53, "stepsmoothnum": n}) for n in (5, 10, 20, 50, 100)
-]
-TWO_STEPS = [
-    ("apply_coord_two_steps_smoothing", {"stepsmoothnum": n, "normalthr": angle})
-    for n in (1, 3, 6) for angle in (30, 60)
-]  # fmt: skip
-LAPLACIAN = [("apply_coord_laplacian_smoothing", {"stepsmoothnum": 20, "cotangentweight": True})]
-ROY = [(DENOISE, {"method": "soft threshold", "scheme": "Roy", "operator": "cotangent", "presmooth": 0})]
-METHODS = {"multires, default": [(DENOISE, {})], "Taubin, best": TAUBIN, "two-step, best": TWO_STEPS,
-           "Laplacian, 20": LAPLACIAN}  # fmt: skip
+ROY = Setting(DENOISE, {"method": "soft threshold", "scheme": "Roy", "operator": "cotangent", "presmooth": 0})
+METHODS = {"multires, default": [Setting(DENOISE)], "Taubin, best": TAUBIN, "two-step, best": TWO_STEPS,
+           "Laplacian, 20": [LAPLACIAN_20]}  # fmt: skip
 HEADER = ["mesh", "noise", "method", "setting", "angle", "rms", "volume", "folded", "seconds"]
 
 
 # ---- meshes ----------------------------------------------------------------------------------------------------------
-
-
-def document(vertices=None, faces=None):
-    ms = pymeshlab.MeshSet(verbose=False)
-    if vertices is not None:
-        ms.add_mesh(pymeshlab.Mesh(vertices, faces))
-    return ms
-
-
-def arrays(mesh):
-    return mesh.vertex_matrix(), mesh.face_matrix()
-
-
-def read(path):
-    ms = document()
-    ms.load_new_mesh(str(path))
-    return arrays(ms.current_mesh())
 
 
 def part():
@@ -96,31 +70,6 @@ def scan(build, vertices):
         return read(pathlib.Path(folder) / f"scan_{vertices}.ply")
 
 
-def normals(v, f):
-    """Unit normals of the faces, and of the vertices."""
-    n = np.cross(v[f[:, 1]] - v[f[:, 0]], v[f[:, 2]] - v[f[:, 0]])
-    at = np.zeros_like(v)
-    for k in range(3):
-        np.add.at(at, f[:, k], n)
-    return tuple(m / np.maximum(np.linalg.norm(m, axis=1, keepdims=True), 1e-300) for m in (n, at))
-
-
-def edge_length(v, f):
-    return np.mean([np.linalg.norm(v[f[:, k]] - v[f[:, k - 1]], axis=1).mean() for k in range(3)])
-
-
-def with_noise(v, f, kind, deviation, seed):
-    """Noise with this deviation in edge lengths; impulsive noise has it at one vertex in seven."""
-    random = np.random.default_rng(seed)
-    size = deviation * edge_length(v, f)
-    if kind == "all directions":
-        return v + size * random.normal(size=v.shape)
-    amount = size * random.normal(size=len(v))
-    if kind == "impulsive":
-        amount[random.random(len(v)) > 1 / 7] = 0
-    return v + amount[:, None] * normals(v, f)[1]
-
-
 def cases(build, quick):
     """(mesh, noise, truth's vertices, faces, noisy vertices)."""
     for truth in sorted(PAIRS.glob("*_truth.ply")):
@@ -135,61 +84,22 @@ def cases(build, quick):
                 yield name, f"{kind} {size:g}", v, f, with_noise(v, f, kind, size, seed=int(100 * size))
 
 
-# ---- measures --------------------------------------------------------------------------------------------------------
-
-
-def volume(v, f):
-    a, b, c = (v[f[:, k]] - v.mean(axis=0) for k in range(3))
-    return np.einsum("ij,ij->i", a, np.cross(b, c)).sum() / 6
-
-
-def rms_distance(v, truth, f):
-    """Both ways, mesh units."""
-    ms = document(truth, f)
-    ms.add_mesh(pymeshlab.Mesh(v, f))
-    ways = [ms.get_hausdorff_distance(sampledmesh=a, targetmesh=1 - a, samplevert=True, sampleface=False,
-                                      samplenum=len(v), maxdist=pymeshlab.PercentageValue(50))["RMS"]
-            for a in (0, 1)]  # fmt: skip
-    return np.sqrt(np.mean(np.square(ways)))
-
-
-def closed(f):
-    edges = np.sort(np.concatenate([f[:, [0, 1]], f[:, [1, 2]], f[:, [2, 0]]]), axis=1)
-    return (np.unique(edges, axis=0, return_counts=True)[1] == 2).all()
-
-
-def measures(v, truth, f):
-    cosine = np.einsum("ij,ij->i", normals(v, f)[0], normals(truth, f)[0])
-    change = 100 * (volume(v, f) / volume(truth, f) - 1) if closed(f) else float("nan")
-    return {"angle": np.degrees(np.arccos(np.clip(cosine, -1, 1))).mean(),
-            "rms": rms_distance(v, truth, f) / edge_length(truth, f), "volume": change,
-            "folded": int((cosine < 0).sum())}  # fmt: skip
-
-
-def run(name, parameters, v, f):
-    """(vertices, seconds)"""
-    ms = document(v, f)
-    start = time.perf_counter()
-    ms.apply_filter(name, **parameters)
-    seconds = time.perf_counter() - start
-    return ms.current_mesh().vertex_matrix(), seconds
+# ---- methods --------------------------------------------------------------------------------------------------------
 
 
 def compare(mesh, noise, truth, f, noisy, repeats):
     """A row for the noisy mesh and one for each method, at the setting with the least angle."""
     rows = [{"mesh": mesh, "noise": noise, "method": "(noisy)", "setting": "", "seconds": float("nan"),
-             **measures(noisy, truth, f)}]  # fmt: skip
+             **measures(noisy, f, truth, f)}]  # fmt: skip
     for method, settings in METHODS.items():
         tried = []
-        for name, parameters in settings:
-            v, seconds = run(name, parameters, noisy, f)
-            varied = [parameters[key] for key in ("stepsmoothnum", "normalthr") if key in parameters]
-            setting = " ".join(f"{value:g}" for value in varied)
-            tried.append({"mesh": mesh, "noise": noise, "method": method, "setting": setting, "seconds": seconds,
-                          "filter": (name, parameters), **measures(v, truth, f)})  # fmt: skip
+        for setting in settings:
+            v, seconds = run(setting, noisy, f)
+            tried.append({"mesh": mesh, "noise": noise, "method": method, "setting": setting.words(),
+                          "seconds": seconds, "filter": setting, **measures(v, f, truth, f)})  # fmt: skip
         best = min(tried, key=lambda row: row["angle"])
         used = best.pop("filter")
-        again = [run(*used, noisy, f)[1] for _ in range(repeats - 1)]
+        again = [run(used, noisy, f)[1] for _ in range(repeats - 1)]
         best["seconds"] = statistics.median([best["seconds"], *again])
         best["rms"] = min(row["rms"] for row in tried)  # its best, too, even with another setting
         rows.append(best)
@@ -200,12 +110,12 @@ def speed(build, vertices, repeats):
     v, f = scan(build, vertices)
     noisy = with_noise(v, f, "normals", 0.2, 1)
     methods = {"multires, default": METHODS["multires, default"][0],
-               "two-step smoothing, defaults": ("apply_coord_two_steps_smoothing", {}),
-               "Roy's soft threshold": ROY[0], "20 cotangent Laplacian steps": LAPLACIAN[0]}  # fmt: skip
+               "two-step smoothing, defaults": Setting("apply_coord_two_steps_smoothing"),
+               "Roy's soft threshold": ROY, "20 cotangent Laplacian steps": LAPLACIAN_20}  # fmt: skip
     seconds = {name: [] for name in methods}
     for _ in range(repeats):
         for name, method in methods.items():
-            seconds[name].append(run(*method, noisy, f)[1])
+            seconds[name].append(run(method, noisy, f)[1])
     return [(name, f"{statistics.median(s):.2f}", f"{min(s):.2f}", f"{max(s):.2f}") for name, s in seconds.items()]
 
 
@@ -242,17 +152,14 @@ def write(folder, name, rows, header):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/pymeshlab-2025.07")
+    parser.add_argument("--build", type=pathlib.Path, default=BUILD)
     parser.add_argument("--output", type=pathlib.Path, default=ROOT / "bench-output")
     parser.add_argument("--repeats", type=int, default=3, help="runs for the times of the quality table")
     parser.add_argument("--speed-repeats", type=int, default=7)
     parser.add_argument("--quick", action="store_true", help="one size of each noise, no speed")
     arguments = parser.parse_args()
 
-    plugin = next((arguments.build / "plugins").glob("*multires_denoise.so"), None)
-    if plugin is None:
-        sys.exit(f"No denoising plugin in {arguments.build}: build the pymeshlab preset first.")
-    pymeshlab.load_plugin(str(plugin))
+    load_plugins(arguments.build / "plugins")
     arguments.output.mkdir(parents=True, exist_ok=True)
 
     rows = []

@@ -1,6 +1,7 @@
-"""Pictures of meshes side by side: shaded, from the same camera, with captions. Needs no display.
+"""Pictures of meshes, shaded or coloured by values, from the same camera. Needs no display.
 
-A row of whole views and a row of close-ups of the place where the pictures differ most. VTK renders with whatever
+contact_sheet() puts them side by side with captions: a row of whole views and a row of close-ups of the place where
+they differ most. VTK renders with whatever
 it finds: a display, EGL or OSMesa; Mesa's software drivers are enough.
 """
 
@@ -112,6 +113,19 @@ def render(panel, camera, size):
     return Image.fromarray(np.asarray(picture)[:, :, :3])
 
 
+def coloured(values, least, most, name):
+    """#V by 3 colours of the values, by matplotlib's colour map `name` from `least` to `most`."""
+    return matplotlib.colormaps[name](np.clip((values - least) / (most - least), 0, 1))[:, :3]
+
+
+def rows_in_use(pictures):
+    """First and last row of square pictures that any mesh covers, with a little room."""
+    size = pictures[0].height
+    rows = np.flatnonzero(np.any([covered(p) for p in pictures], axis=(0, 2)))
+    room = size // 40
+    return (max(0, rows[0] - room), min(size, rows[-1] + room)) if rows.size else (0, size)
+
+
 def covered(picture):
     """Size by size booleans: where the mesh is."""
     return (np.abs(np.asarray(picture, dtype=int) - BACKGROUND) > 3).any(axis=2)
@@ -152,8 +166,7 @@ def contact_sheet(panels, camera=None, tile=420, close_ups=True):
 
     # Whole views lose the empty rows above and below.
     gap, caption, line = tile // 40, tile // 6, max(1, tile // 300)
-    rows = np.flatnonzero(np.any([covered(p) for p in whole], axis=(0, 2)))
-    first, last = (max(0, rows[0] - gap), min(tile, rows[-1] + gap)) if rows.size else (0, tile)
+    first, last = rows_in_use(whole)
     below = caption + last - first + gap
     sheet = Image.new("RGB", (len(panels) * (tile + gap) + gap, below + (tile + gap if near else 0)), BACKGROUND)
     draw = ImageDraw.Draw(sheet)
