@@ -144,7 +144,7 @@ def busiest_square(pictures, part):
         return total[window:, window:] - total[:-window, window:] - total[window:, :-window] + total[:-window, :-window]
 
     # Inside the mesh rather than at its outline.
-    score = box_sum(difference * inside) * (box_sum(inside.astype(float)) / window**2) ** 4
+    score = box_sum(difference * inside) * (box_sum(inside.astype(float)) / window**2) ** 2
     row, column = np.unravel_index(np.argmax(score), score.shape)
     return 2 * (column + window / 2) / size - 1, 1 - 2 * (row + window / 2) / size
 
