@@ -9,14 +9,13 @@
 /// Bindings of the option structs that several filters share, and the citations of their info texts.
 namespace multires::plugin {
 
-inline const char* const cite_guskov =
-    "<br>See:<br><i>Igor Guskov, Wim Sweldens, Peter Schr&ouml;der</i><br>"
-    "<b>\"Multiresolution Signal Processing for Meshes\"</b><br>Proceedings of SIGGRAPH 1999, pages 325-334.<br>";
+// Short: MeshLab 2020.09 shows the info above the parameters, and its dialogs neither scroll nor fold.
+inline const char* const cite_guskov = "<br>See <i>Guskov, Sweldens, Schr&ouml;der</i>, "
+                                       "<b>\"Multiresolution Signal Processing for Meshes\"</b>, SIGGRAPH 1999.";
 
 inline const char* const cite_roy =
-    "<br>See:<br><i>Micha&euml;l Roy, Sebti Foufou, Andreas Koschan, Fr&eacute;d&eacute;ric Truchetet, Mongi Abidi</i>"
-    "<br><b>\"Multiresolution Analysis for Irregular Meshes\"</b><br>"
-    "SPIE Photonics Technologies for Robotics, Automation, and Manufacturing, 2003.<br>";
+    "<br>See <i>Roy, Foufou, Koschan, Truchetet, Abidi</i>, "
+    "<b>\"Multiresolution Analysis for Irregular Meshes\"</b>, SPIE Photonics Technologies 2003.";
 
 inline const std::vector<std::string> operator_names = {
     "umbrella",           "cotangent",         "cotangent clamped",
@@ -36,12 +35,12 @@ inline void bind_features(Parameters& p, Features& features, double& angle) {
 }
 
 inline void bind_operator(Parameters& p, Operator& op, const char* group) {
-    p.choice(
-        "operator", op, operator_names,
-        {"Relaxation operator",
-         "How a vertex is predicted from its neighbours. Second differences keep shape best; cotangent weights are "
-         "faster and shrink; the umbrella ignores geometry and lets vertices drift.",
-         0, 5, true, group});
+    p.choice("operator", op, operator_names,
+             {"Operator",
+              "Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape best; "
+              "cotangent weights are "
+              "faster and shrink; the umbrella ignores geometry and lets vertices drift.",
+              0, 5, true, group});
 }
 
 inline void bind_pyramid(Parameters& p, PyramidOptions& o) {
@@ -130,6 +129,7 @@ inline bool is_still(double value, double shown) { return static_cast<float>(val
 
 /// The band in its unit, where limits still at the default shown (in wavelengths) are converted.
 inline Band in_own_unit(const Layer& layer, Band band) {
+    if (band.unit == Unit::wavelength) return band;
     const Band shown = default_band(layer, Unit::wavelength), own = default_band(layer, band.unit);
     if (is_still(band.finest, shown.finest)) band.finest = own.finest;
     if (is_still(band.coarsest, shown.coarsest)) band.coarsest = own.coarsest;

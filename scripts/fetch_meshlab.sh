@@ -1,6 +1,6 @@
 #!/bin/bash
-# Unpacks MeshLab's headers (with vcglib) into .cache/meshlab-<version>/:
-#   scripts/fetch_meshlab.sh 2020.09|2022.02|2025.07
+# Unpacks MeshLab's headers (with vcglib) into .cache/meshlab-<version>/, or all of it into .cache/meshlab-<version>-all/:
+#   scripts/fetch_meshlab.sh 2020.09|2022.02|2025.07 [all]
 # The source is Debian's upstream tarball, from the mirror the system uses, through an apt configuration of its own:
 # the system's apt is neither changed nor updated. What is unpacked is checked by its SHA-256.
 set -euo pipefail
@@ -14,6 +14,11 @@ case $version in
     *) echo "unknown version $version" >&2; exit 1 ;;
 esac
 target=.cache/meshlab-$version
+parts=('*/ML_VERSION' '*/LICENSE.txt' '*/src/common' "*/vcglib")
+if [ "${2:-}" = all ]; then
+    target+=-all
+    parts=('*')
+fi
 [ -e "$target/ML_VERSION" ] && exit 0
 
 # The first Debian archive among the system's sources, in either format; else Debian's own.
@@ -41,7 +46,6 @@ echo "$sha  $tarball" | sha256sum --check --quiet || {
 }
 rm -rf "$target.part"
 mkdir -p "$target.part"
-tar -xf "$tarball" -C "$target.part" --no-same-owner --strip-components=1 --wildcards \
-    '*/ML_VERSION' '*/LICENSE.txt' '*/src/common' "*/vcglib"
+tar -xf "$tarball" -C "$target.part" --no-same-owner --strip-components=1 --wildcards "${parts[@]}"
 mv "$target.part" "$target"
 rm -rf "$work"

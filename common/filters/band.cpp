@@ -83,16 +83,22 @@ void check(const Band& band, double diagonal) {
     if (band.unit == Unit::wavelength_percent && !(diagonal > 0)) throw InputError("the bounding box has no size");
 }
 
+/// The layer's finest wavelength in a unit of wavelength; others have no use for it.
+double finest_wavelength(const Layer& layer, Unit unit) {
+    if (unit != Unit::wavelength && unit != Unit::wavelength_percent) return 0;
+    const double finest = 2 * mean_edge_length(layer.mesh.faces, layer.mesh.positions);
+    if (unit == Unit::wavelength) return finest;
+    const double diagonal = box_diagonal(layer);
+    return diagonal > 0 ? 100 * finest / diagonal : 0;
+}
+
 /// A wavelength of `times` the layer's finest one in a unit. A set of an independent-set pyramid removes about a
 /// quarter of the vertices, so an octave of wavelength (a quarter of the vertices left) is 4.8 levels.
-double in_unit(const Layer& layer, double times, Unit unit) {
-    const double finest = 2 * mean_edge_length(layer.mesh.faces, layer.mesh.positions);
-    const double diagonal = box_diagonal(layer);
+double in_unit(const Layer& layer, double finest, double times, Unit unit) {
     switch (unit) {
     case Unit::wavelength:
-        return times * finest;
     case Unit::wavelength_percent:
-        return diagonal > 0 ? 100 * times * finest / diagonal : 0;
+        return times * finest;
     case Unit::level:
         return std::round(4.8 * std::log2(times));
     case Unit::vertices:
@@ -113,12 +119,15 @@ double times_finest(const Layer& layer, double most, double share) {
 Band default_band(const Layer& layer, Unit unit) {
     Band band;
     band.unit = unit;
-    band.finest = in_unit(layer, times_finest(layer, 2, 0.25), unit);
-    band.coarsest = in_unit(layer, times_finest(layer, 8, 0.75), unit);
+    const double finest = finest_wavelength(layer, unit);
+    band.finest = in_unit(layer, finest, times_finest(layer, 2, 0.25), unit);
+    band.coarsest = in_unit(layer, finest, times_finest(layer, 8, 0.75), unit);
     return band;
 }
 
-double default_cutoff(const Layer& layer, Unit unit) { return in_unit(layer, times_finest(layer, 4, 0.5), unit); }
+double default_cutoff(const Layer& layer, Unit unit) {
+    return in_unit(layer, finest_wavelength(layer, unit), times_finest(layer, 4, 0.5), unit);
+}
 
 std::vector<double> band_share(const KeptPyramid& pyramid, const Band& band, double diagonal) {
     check(band, diagonal);

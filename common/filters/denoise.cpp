@@ -18,7 +18,7 @@ namespace {
 
 void check(const DenoiseOptions& o) {
     require(std::isfinite(o.threshold) && o.threshold >= 0, "threshold must be a number, 0 or more");
-    require(std::isfinite(o.strength) && o.strength > 0, "strength must be more than 0");
+    require(std::isfinite(o.strength) && o.strength >= 0, "strength must be a number, 0 or more");
     require(o.finest_level >= 0, "finest_level must be 0 or more");
     require(o.coarsest_level > o.finest_level, "coarsest_level must be more than finest_level");
     require(o.cycle_spins >= 1 && o.cycle_spins <= 64, "cycle_spins must be between 1 and 64");
@@ -44,7 +44,7 @@ Positions by_normal_field(const Layer& layer, const DenoiseOptions& o, double gi
     const FaceGraph graph = face_graph(mesh.faces, at);
     session.progress.report(0.06, "Looking for impulsive noise");
     Index spikes = 0;
-    const Positions start = without_spikes(mesh.faces, mesh.positions, at, spikes);
+    const Positions start = o.strength > 0 ? without_spikes(mesh.faces, mesh.positions, at, spikes) : mesh.positions;
     NormalFieldOptions options;
     options.strength = o.strength;
     if (o.unit != ThresholdUnit::automatic)
@@ -56,7 +56,8 @@ Positions by_normal_field(const Layer& layer, const DenoiseOptions& o, double gi
     session.progress.report(0.85, "Fitting the vertices");
     constexpr double rounding = 1e-4;  // of coordinates in single precision; there is nothing to fit then
     constexpr int steps = 8;           // more would follow the normals further and lose volume
-    Positions after = stats.noise > rounding ? fit_vertices(mesh.faces, start, at, normals, steps) : start;
+    Positions after =
+        o.strength > 0 && stats.noise > rounding ? fit_vertices(mesh.faces, start, at, normals, steps) : start;
     report.add("spikes_removed", static_cast<int>(spikes));
     report.add("normal_noise", stats.noise);
     report.add("normal_noise_after", stats.left);
@@ -147,6 +148,7 @@ Result denoise(const Layer& layer, const DenoiseOptions& options, Session& sessi
             for (std::size_t i = 0; i < doubt.size(); ++i) movement[i] *= doubt[i];
     } else {
         after = by_threshold(start, options, given, deviation, confidence, session, result.report);
+        if (options.unit == ThresholdUnit::automatic && options.strength == 0) after = start.mesh.positions;
     }
     blend(layer.mesh.positions, weights, after);
     if (options.keep_volume) {

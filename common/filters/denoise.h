@@ -31,8 +31,8 @@ struct DenoiseOptions {
     /// Length of noise, >= 0: thresholding drops details up to it; the normal field takes it for the standard
     /// deviation.
     double threshold = 0;
-    double strength = 1;       ///< > 0; factor for the automatic threshold
-    int finest_level = 0;      ///< thresholding: levels finest_level .. coarsest_level - 1
+    double strength = 1;   ///< >= 0; factor for the noise the normal field or the automatic threshold assumes; 0: none
+    int finest_level = 0;  ///< thresholding: levels finest_level .. coarsest_level - 1
     int coarsest_level = 5;    ///< (Roy: the five finest)
     bool per_level = true;     ///< thresholding, automatic: a threshold for each level; otherwise that of the finest
     bool normal_only = false;  ///< thresholding: only the part of a detail along the normal

@@ -177,6 +177,7 @@ std::vector<Vec3> denoise_normals(const Faces& faces, const Positions& positions
     stats = NormalFieldStats();
     stats.noise = median_difference(graph, g.normal);
     const double noise = options.strength * (options.noise > 0 ? options.noise : stats.noise);
+    stats.left = stats.noise;
     if (!(noise > 0)) return g.normal;  // flat, or no two faces meet: there is nothing to take for noise
 
     const std::vector<double> spatial = spatial_weights(graph, g);

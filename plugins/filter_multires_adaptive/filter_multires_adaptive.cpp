@@ -73,8 +73,10 @@ void bind_adaptive(Parameters& p, AdaptiveOptions& o) {
     p.boolean("fit", o.fit,
               {"Fit positions",
                "Move the vertices kept to where they fit the input best. The boundary and the selection kept in full "
-               "stay where they are."});
-    p.boolean("measure", o.measure, {"Measure the distance", "Report the two-sided distance to the input."});
+               "stay where they are.",
+               0, 1, false, "Target"});
+    p.boolean("measure", o.measure,
+              {"Measure the distance", "Report the two-sided distance to the input.", 0, 1, false, "Target"});
     const char* band = "Band";
     p.real("band_gain", o.band_gain,
            {"Gain of a band",
@@ -105,12 +107,9 @@ const Plugin& table() {
                  "generate_multires_adaptive_reconstruction",
                  std::string(
                      "Makes a new layer that holds only the vertices whose detail exceeds a threshold, and all they "
-                     "depend on: many where the surface, its colour, quality or texture changes, few elsewhere. "
-                     "Threshold 0 gives the input, a very large one the coarsest mesh; the threshold can also be "
-                     "found for a number of faces or vertices or an error bound. Attributes are carried over; the "
-                     "custom vertex attribute <i>source_vertex</i> holds the index of each vertex in the input. "
-                     "Returned: faces, vertices, threshold used, and the distance to the input measured both "
-                     "ways.<br>") +
+                     "depend on: many where the surface, its colour, quality or texture changes, few elsewhere. The "
+                     "threshold can also be found for a number of faces or vertices or an error bound. The custom "
+                     "vertex attribute <i>source_vertex</i> holds the index of each vertex in the input.<br>") +
                      cite_roy,
                  MenuClass::remeshing,
                  faces,

@@ -29,7 +29,8 @@ void bind_low_pass(Parameters& p, LowPassOptions& o) {
 
 Result run_low_pass(const Layer& layer, const LowPassOptions& options, Session& session) {
     LowPassOptions o = options;
-    if (is_still(o.cutoff, default_cutoff(layer, Unit::wavelength))) o.cutoff = default_cutoff(layer, o.unit);
+    if (o.unit != Unit::wavelength && is_still(o.cutoff, default_cutoff(layer, Unit::wavelength)))
+        o.cutoff = default_cutoff(layer, o.unit);
     return low_pass(layer, o, session);
 }
 
@@ -56,7 +57,7 @@ BandOptions enhance_defaults(const Layer* layer) {
 
 void bind_enhance(Parameters& p, BandOptions& o) {
     p.slider("gain", o.gain,
-             {"Gain", "Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them.", 0, 8,
+             {"Gain", "Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them.", 0, 10,
               false, "Band"});
     bind_stop_band(p, o);
 }
@@ -94,10 +95,11 @@ std::string band_label(const EqualizerRow& o, int i) {
 
 void bind_equalizer(Parameters& p, EqualizerRow& o) {
     for (int i = 0; i < equalizer_bands; ++i)
-        p.slider(("gain_" + std::to_string(i + 1)).c_str(), o.gain[i],
-                 {band_label(o, i),
-                  "Factor for waves of these lengths (mesh units): 1 leaves them, 0 removes them, 2 doubles them.", 0,
-                  4, false, "Bands, fine to coarse"});
+        p.slider(
+            ("gain_" + std::to_string(i + 1)).c_str(), o.gain[i],
+            {band_label(o, i),
+             "Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2 doubles it.", 0,
+             4, false, "Bands, fine to coarse"});
     bind_softness(p, o.softness);
     bind_region(p, o.region);
     bind_relative_to(p, o.relative_to);
@@ -117,7 +119,7 @@ UnsharpOptions unsharp_defaults(const Layer* layer) {
 void bind_unsharp(Parameters& p, UnsharpOptions& o) {
     p.slider("xi", o.xi,
              {"Strength",
-              "1 changes nothing; 2 doubles what the relaxation takes away; between 0 and 1 smooths, 0 fully.", 0, 8});
+              "1 changes nothing; 2 doubles what the relaxation takes away; between 0 and 1 smooths, 0 fully.", 0, 10});
     p.integer("iterations", o.iterations,
               {"Relaxation steps", "More steps reach coarser structure; each costs the same.", 1, 10000});
     bind_operator(p, o.op, "Relaxation");
@@ -176,8 +178,8 @@ const Plugin& table() {
             filter<EqualizerRow>(
                 {"Multiresolution: Equalizer",
                  "apply_coord_multires_equalizer",
-                 std::string("Eight gains for eight bands from fine to coarse. With all gains at 1 the mesh comes back "
-                             "unchanged.<br>") +
+                 std::string("Eight gains for eight bands of wavelengths from fine to coarse, given in the mesh's "
+                             "unit. With all gains at 1 the mesh comes back unchanged.<br>") +
                      cite_guskov,
                  MenuClass::smoothing,
                  faces,

@@ -29,8 +29,9 @@ void bind_threshold(Parameters& p, DenoiseOptions& o) {
             0, 1e30, false, group});
     p.slider("strength", o.strength,
              {"Strength",
-              "Factor for the automatic threshold: 1 removes the noise found, 2 takes twice as much for noise.", 0.05,
-              4, false, group});
+              "Factor for the noise: 1 removes the noise found, 2 takes twice as much for noise, 0 changes nothing. "
+              "The threshold methods use it if their threshold is automatic.",
+              0, 4, false, group});
 }
 
 void bind_denoise(Parameters& p, DenoiseOptions& o) {
@@ -120,12 +121,9 @@ const Plugin& table() {
                      "Removes noise and keeps shape, without a parameter to set. The report says how much noise "
                      "was found at each scale and how much was taken out.<br>") +
                      cite_roy +
-                     "<i>Xianfang Sun, Paul L. Rosin, Ralph R. Martin, Frank C. Langbein</i><br><b>\"Fast and "
-                     "Effective "
-                     "Feature-Preserving Mesh Denoising\"</b><br>IEEE Transactions on Visualization and Computer "
-                     "Graphics 13(5), 2007.<br><i>Youyi Zheng, Hongbo Fu, Oscar Kin-Chung Au, Chiew-Lan Tai</i><br>"
-                     "<b>\"Bilateral Normal Filtering for Mesh Denoising\"</b><br>IEEE Transactions on Visualization "
-                     "and Computer Graphics 17(10), 2011.<br>",
+                     "<br>See <i>Sun, Rosin, Martin, Langbein</i>, <b>\"Fast and Effective Feature-Preserving Mesh "
+                     "Denoising\"</b>, IEEE TVCG 2007.<br>See <i>Zheng, Fu, Au, Tai</i>, <b>\"Bilateral Normal "
+                     "Filtering for Mesh Denoising\"</b>, IEEE TVCG 2011.",
                  MenuClass::smoothing,
                  faces,
                  vertex_quality,

@@ -36,8 +36,28 @@ private:
 
     template <class Rich, class... Value>
     void add(const char* name, const Hint& hint, const Value&... value) {
-        list.addParam(make_parameter<Rich>(QString(name), hint, value...));
+        list.addParam(make_parameter<Rich>(QString(name), arranged(hint), value...));
     }
+
+    /// As the dialogs of hosts need it. 2020.09 lists all parameters one below the other, without headings or folding.
+    /// Later ones fold the advanced ones away, but not their headings: those get one heading in common, and in all
+    /// hosts their group is part of the label.
+    Hint arranged(Hint hint) {
+        if (hint.advanced) {
+            if (!hint.group.empty()) hint.label = hint.group + ": " + hint.label;
+            hint.group = "Advanced";
+        }
+        if (hint.group.empty()) return hint;
+        auto place = std::find(groups_.begin(), groups_.end(), hint.group);
+        if (place == groups_.end()) place = groups_.insert(place, hint.group);
+        // Headings are sorted, and shown as rich text: blanks in front put ours in order and cannot be seen.
+        constexpr std::ptrdiff_t most = 20;
+        const auto index = hint.advanced ? most : std::min(most, place - groups_.begin());
+        hint.group.insert(0, static_cast<std::size_t>(most - index), ' ');
+        return hint;
+    }
+
+    std::vector<std::string> groups_;  ///< in order of appearance
 };
 
 RichParameterList declare(const plugin::Filter& filter, const Layer* layer) {

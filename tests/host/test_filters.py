@@ -470,6 +470,7 @@ NEUTRAL = {
     EQUALIZER: GAINS_OF_ONE,
     ENHANCE: {"relative_to": "original", "gain": 1},
     UNSHARP: {"relative_to": "original", "xi": 1},
+    "apply_coord_multires_denoise": {"relative_to": "original", "strength": 0},
 }
 
 

@@ -1,70 +1,12 @@
-"""The plugins in MeshLab 2020.09 as Debian packages it: meshlabserver with scripts, and the menus of the GUI.
+"""The plugins in meshlabserver 2020.09 as Debian packages it."""
 
-Both look for plugins only next to themselves, so they run from a private tree: copies of the two programs (Linux finds
-a program's place through links), links to their library and to one plugin that reads and writes PLY, and ours.
-"""
-
-import os
-import pathlib
-import shutil
-import subprocess
 import xml.etree.ElementTree as ET
 
 import numpy as np
 import pymeshlab
 import pytest
-from conftest import FILTER_IDS, FILTERS, PLUGINS, PROBES
-
-@pytest.fixture(scope="session")
-def tree(tmp_path_factory):
-    root = tmp_path_factory.mktemp("meshlab")
-    server = pathlib.Path(shutil.which("meshlabserver", path="/usr/bin"))
-    installed = next(server.parent.parent.glob("lib/*/meshlab"))
-    here = root / "lib" / installed.parent.name / "meshlab"
-    (here / "plugins").mkdir(parents=True)
-    (root / "bin").mkdir()
-    for program in (server, server.with_name("meshlab")):
-        shutil.copy(program, root / "bin")
-    (here / "libmeshlab-common.so").symlink_to(installed / "libmeshlab-common.so")
-    for plugin in [installed / "plugins/libio_base.so", *PROBES.glob("*.so"), *PLUGINS]:
-        (here / "plugins" / plugin.name).symlink_to(plugin)
-    return root
-
-
-@pytest.fixture(scope="session")
-def display():
-    """Number of an X display of our own."""
-    reading, writing = os.pipe()
-    xvfb = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(writing), "-screen", "0", "1024x768x24", "-nolisten", "tcp"],
-        pass_fds=[writing],
-        stderr=subprocess.DEVNULL,
-    )
-    os.close(writing)
-    with os.fdopen(reading) as pipe:
-        number = pipe.readline().strip()
-    assert number, "Xvfb did not start"
-    yield number
-    xvfb.terminate()
-    xvfb.wait()
-
-
-@pytest.fixture(scope="session")
-def run(tree, display):
-    """Runs a program of the tree, away from the user's display and settings."""
-
-    def run(program, *arguments, **variables):
-        own = {"HOME": tree, "XDG_CONFIG_HOME": tree / "config", "XDG_RUNTIME_DIR": tree, "DISPLAY": ":" + display}
-        return subprocess.run(
-            [tree / "bin" / program, *map(str, arguments)],
-            env={**os.environ, **{key: str(value) for key, value in own.items()}, **variables},
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-            timeout=120,
-        )
-
-    return run
+from conftest import FILTER_IDS, FILTERS
+from meshlab_program import display, run, tree  # noqa: F401  fixtures
 
 
 def script(path, *filters):
@@ -226,12 +168,3 @@ def test_the_original_comes_back_bit_for_bit_in_single_precision(server, meshes)
     np.testing.assert_array_equal(load(server.output).vertex_matrix(), before)
     server.apply_all(mesh, [*many, with_values("equalizer", relative_to=0, **ones)])
     assert not np.array_equal(load(server.output).vertex_matrix(), before)
-
-
-def test_the_menu_of_the_gui_has_every_filter(run, tmp_path):
-    menu = tmp_path / "menu.txt"
-    done = run("meshlab", MULTIRES_MENU_FILE=str(menu))
-    assert done.returncode == 0, done.stdout
-    entries = [line.split("/") for line in menu.read_text().splitlines() if line.startswith("Filters/")]
-    for row in FILTERS:
-        assert any(entry[-1] == row["name"] and len(entry) == 3 for entry in entries), row["name"]

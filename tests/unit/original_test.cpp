@@ -86,6 +86,17 @@ TEST(Original, GainsOfOneBringItBackBitForBitAfterManyChanges) {
     nothing.xi = 1;
     nothing.relative_to = RelativeTo::original;
     EXPECT_EQ(*document.run(unsharp, nothing).positions, before);
+
+    for (const DenoiseMethod method :
+         {DenoiseMethod::normal_field, DenoiseMethod::soft_threshold, DenoiseMethod::hard_threshold}) {
+        change_in_many_ways(document);
+        DenoiseOptions none;
+        none.method = method;
+        none.strength = 0;
+        none.keep_volume = true;
+        none.relative_to = RelativeTo::original;
+        EXPECT_EQ(*document.run(denoise, none).positions, before);
+    }
 }
 
 TEST(Original, AFilterRelativeToItIsThatFilterOnIt) {
