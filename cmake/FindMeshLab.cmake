@@ -11,6 +11,7 @@
 #   MeshLab::vcglib          vcglib's headers alone
 #   MeshLab_VERSION          "2020.09", ...
 #   MESHLAB_API              2020 (MeshFilterInterface) or 2022 (FilterPlugin: 2022.02 and later)
+#   MESHLAB_HOST             "pymeshlab-2025.07", "meshlab-2020.09-float", ...: for whom plugins are
 #   MESHLAB_PLUGIN_DIR       where that MeshLab looks for plugins, relative to the install prefix
 
 set(MESHLAB_SCALAR float CACHE STRING "Scalar type that MeshLab was built with: float or double")
@@ -60,7 +61,9 @@ if(MESHLAB_SCALAR STREQUAL "double")
   set(meshlab_precision dp)
 endif()
 
+set(MESHLAB_HOST meshlab-${MeshLab_VERSION}-${MESHLAB_SCALAR})
 if(MESHLAB_COMMON_LIBRARY MATCHES "pymeshlab")
+  set(MESHLAB_HOST pymeshlab-${MeshLab_VERSION})
   # load_plugin() takes any path: straight into the prefix.
   set(MESHLAB_PLUGIN_DIR ".")
 elseif(MESHLAB_API EQUAL 2020)

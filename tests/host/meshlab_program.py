@@ -18,7 +18,7 @@ LATER_GUI = os.environ.get("MULTIRES_MESHLAB")
 
 
 def link(plugins, folder):
-    folder.mkdir(parents=True)
+    folder.mkdir(parents=True, exist_ok=True)
     for plugin in plugins:
         (folder / plugin.name).symlink_to(plugin)
 
@@ -27,8 +27,8 @@ def link(plugins, folder):
 def tree(tmp_path_factory):
     """A folder to be the user's home, with bin/ and all the plugins in it."""
     root = tmp_path_factory.mktemp("meshlab")
-    (root / "bin").mkdir()
     if LATER_GUI:
+        (root / "bin").mkdir()
         # The program loads plugins of its own version only, and keeps the user's in a folder named after that.
         (root / "bin/meshlab").symlink_to(LATER_GUI)
         link(PLUGINS, root / os.environ["MULTIRES_PLUGIN_DIR"])
@@ -39,14 +39,19 @@ def tree(tmp_path_factory):
             "[General]\ncheckForUpdates=false\nlastComunicatedValue=0\nloadedMeshCounter=1\n"
         )
         return root
+    add_debian_meshlab(root, [*PROBES.glob("*.so"), *PLUGINS])
+    return root
+
+
+def add_debian_meshlab(root, plugins):
     server = pathlib.Path(shutil.which("meshlabserver", path="/usr/bin"))
     installed = next(server.parent.parent.glob("lib/*/meshlab"))
     here = root / "lib" / installed.parent.name / "meshlab"
-    link([installed / "plugins/libio_base.so", *PROBES.glob("*.so"), *PLUGINS], here / "plugins")
+    link([installed / "plugins/libio_base.so", *plugins], here / "plugins")
     (here / "libmeshlab-common.so").symlink_to(installed / "libmeshlab-common.so")
+    (root / "bin").mkdir(exist_ok=True)
     for program in (server, server.with_name("meshlab")):
         shutil.copy(program, root / "bin")
-    return root
 
 
 @pytest.fixture(scope="session")
@@ -70,7 +75,10 @@ def display():
 @pytest.fixture(scope="session")
 def run(tree, display):
     """Runs a program of the tree, away from the user's display and settings."""
+    return runner(tree, display)
 
+
+def runner(tree, display):
     def run(program, *arguments, **variables):
         own = {
             "HOME": tree,
