@@ -59,6 +59,16 @@ enum Parts : std::uint32_t {
 /// Where the filter appears in the host's menu.
 enum class MenuClass { smoothing, remeshing, quality, layer, measure, texture };
 
+/// One number of a filter's report, for people and programs that read it.
+struct Returned {
+    enum class Type { boolean, integer, real, list };
+    std::string key;  ///< as in Report; a leading * stands for the label of any attribute
+    Type type;
+    std::string unit;  ///< "" if it has none
+    std::string meaning;
+    bool always = true;  ///< false: only with some parameters or meshes
+};
+
 /// One filter.
 struct Filter {
     std::string name;         ///< "Multiresolution: Low Pass", as in the menu
@@ -73,6 +83,8 @@ struct Filter {
     std::function<void(Parameters&, const Layer*)> parameters;
     /// Runs the filter with the parameters read from the host.
     std::function<Result(Parameters&, const Layer&, Session&)> run;
+
+    std::vector<Returned> returns;  ///< what the report holds
 };
 
 /// Makes a row from an options struct: `defaults` derives it from a layer, `bind` visits its fields, `apply` does it.

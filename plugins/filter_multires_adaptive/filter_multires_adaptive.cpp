@@ -1,4 +1,5 @@
 #include "bindings.h"
+#include "returns.h"
 
 #include "filters/adaptive.h"
 
@@ -96,6 +97,21 @@ void bind_adaptive(Parameters& p, AdaptiveOptions& o) {
 
 constexpr std::uint32_t reads = vertex_quality | vertex_color | vertex_texcoord | wedge_texcoord;
 
+const Returns adaptive_returns{
+    {"faces", Type::integer, "", "Faces of the new layer."},
+    {"vertices", Type::integer, "", "Its vertices."},
+    {"unreferenced_vertices", Type::integer, "", "Vertices without a face, which are kept."},
+    {"base_faces", Type::integer, "", "Faces of the base mesh: no fewer can be had."},
+    {"base_vertices", Type::integer, "", "Its vertices."},
+    {"*_threshold_used", Type::real, "unit of the threshold",
+     "Threshold of each kind of detail in use, as given or as found for the target.", false},
+    {"rms_distance", Type::real, "mesh units", "Root of the mean square of the two-sided distance to the input.",
+     false},
+    {"largest_distance", Type::real, "mesh units", "Largest two-sided distance to the input.", false},
+    {"rms_distance_percent", Type::real, "percent of the box diagonal", "The same, relative.", false},
+    {"largest_distance_percent", Type::real, "percent of the box diagonal", "The same, relative.", false},
+};
+
 }  // namespace
 
 const Plugin& table() {
@@ -116,7 +132,8 @@ const Plugin& table() {
                  reads,
                  new_layer,
                  {},
-                 {}},
+                 {},
+                 adaptive_returns},
                 adaptive_defaults, bind_adaptive, adaptive_reconstruction),
         }};
     return plugin;

@@ -1,4 +1,5 @@
 #include "attribute_bindings.h"
+#include "returns.h"
 
 #include "filters/attributes.h"
 #include "filters/attributes_band.h"
@@ -132,6 +133,19 @@ void bind_texcoord(Parameters& p, TexcoordOptions& o) {
 constexpr std::uint32_t everything =
     vertex_color | vertex_quality | vertex_texcoord | wedge_texcoord | custom_attributes;
 
+const Returns relaxation_returns{
+    {"kept_vertices", Type::integer, "", "Vertices whose values were kept: corners, or without neighbours.", false},
+    {"seam_vertices", Type::integer, "", "Vertices on seams of the wedge texture coordinates.", false},
+};
+
+const Returns texcoord_returns{
+    {"level", Type::integer, "", "The level that was projected."},
+    {"coarse_vertices", Type::integer, "", "Its vertices."},
+    {"axis", Type::list, "", "Direction of the projection's axis, a unit vector.", false},
+    {"seam_faces", Type::integer, "", "Faces across the seam of a cylinder or sphere, whose wedges go on beyond 1."},
+    {"pole_faces", Type::integer, "", "Faces around a pole of the projection."},
+};
+
 }  // namespace
 
 const Plugin& table() {
@@ -151,7 +165,8 @@ const Plugin& table() {
                  everything,
                  everything,
                  {},
-                 {}},
+                 {},
+                 relaxation_returns + attribute_returns},
                 relaxation_defaults, bind_relaxation, relax_attributes),
             filter<AttributeBandOptions>(
                 {"Multiresolution: Filter Attributes by Band",
@@ -164,7 +179,8 @@ const Plugin& table() {
                  vertex_color | vertex_quality,
                  vertex_color | vertex_quality,
                  {},
-                 {}},
+                 {},
+                 gains_returns + attribute_returns + pyramid_returns},
                 band_defaults, bind_attribute_band, run_band),
             filter<AttributeBandOptions>(
                 {"Multiresolution: Filter Custom Attributes by Band",
@@ -177,7 +193,8 @@ const Plugin& table() {
                  vertex_quality | custom_attributes,
                  custom_attributes,
                  {},
-                 {}},
+                 {},
+                 gains_returns + attribute_returns + pyramid_returns},
                 custom_band_defaults, bind_custom_band, run_band),
             filter<TexcoordOptions>(
                 {"Multiresolution: Generate Texture Coordinates",
@@ -193,7 +210,8 @@ const Plugin& table() {
                  vertex_texcoord | wedge_texcoord,
                  vertex_texcoord | wedge_texcoord,
                  {},
-                 {}},
+                 {},
+                 texcoord_returns + pyramid_returns},
                 texcoord_defaults, bind_texcoord, generate_texcoord),
         }};
     return plugin;

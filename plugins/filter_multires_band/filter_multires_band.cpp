@@ -1,4 +1,5 @@
 #include "bindings.h"
+#include "returns.h"
 
 #include "filters/band_filters.h"
 
@@ -147,7 +148,8 @@ const Plugin& table() {
                  reads,
                  vertex_positions,
                  {},
-                 {}},
+                 {},
+                 gains_returns + change_returns + pyramid_returns},
                 low_pass_defaults, bind_low_pass, run_low_pass),
             filter<BandOptions>(
                 {"Multiresolution: Stop Band",
@@ -160,7 +162,8 @@ const Plugin& table() {
                  reads,
                  vertex_positions,
                  {},
-                 {}},
+                 {},
+                 gains_returns + change_returns + pyramid_returns},
                 band_defaults, bind_stop_band, run_band),
             filter<BandOptions>(
                 {"Multiresolution: Enhance Band",
@@ -173,7 +176,8 @@ const Plugin& table() {
                  reads,
                  vertex_positions,
                  {},
-                 {}},
+                 {},
+                 gains_returns + change_returns + pyramid_returns},
                 enhance_defaults, bind_enhance, run_band),
             filter<EqualizerRow>(
                 {"Multiresolution: Equalizer",
@@ -186,7 +190,8 @@ const Plugin& table() {
                  reads,
                  vertex_positions,
                  {},
-                 {}},
+                 {},
+                 gains_returns + change_returns + pyramid_returns},
                 equalizer_defaults, bind_equalizer, run_equalizer),
             filter<UnsharpOptions>(
                 {"Multiresolution: Unsharp (Single Level)",
@@ -200,7 +205,8 @@ const Plugin& table() {
                  reads,
                  vertex_positions,
                  {},
-                 {}},
+                 {},
+                 change_returns},
                 unsharp_defaults, bind_unsharp, unsharp),
         }};
     return plugin;

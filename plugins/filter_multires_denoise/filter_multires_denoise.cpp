@@ -1,4 +1,5 @@
 #include "attribute_bindings.h"
+#include "returns.h"
 
 #include "filters/attributes_denoise.h"
 #include "filters/denoise.h"
@@ -108,6 +109,32 @@ void bind_attributes(Parameters& p, AttributeDenoiseOptions& o) {
     bind_pyramid(p, o.pyramid);
 }
 
+const Returns denoise_returns{
+    {"noise", Type::real, "mesh units", "Deviation of the noise found, from second differences."},
+    {"noise_per_level", Type::list, "",
+     "Noise in the details of each level, finest first: of the normals, or with thresholding in mesh units."},
+    {"spikes_removed", Type::integer, "", "Normal field: vertices found to be impulses and set back first.", false},
+    {"normal_noise", Type::real, "", "Normal field: median difference of neighbouring unit normals.", false},
+    {"normal_noise_after", Type::real, "", "Normal field: the same after denoising.", false},
+    {"detail_per_level", Type::list, "", "Normal field: RMS detail of the normals on each level.", false},
+    {"share_removed", Type::list, "", "Normal field: share of each level's details that was taken out.", false},
+};
+
+const Returns thresholding_returns{
+    {"threshold_per_level", Type::list, "mesh units", "Thresholding: what was used on each level.", false},
+    {"share_zeroed", Type::list, "", "Thresholding: share of the details that became 0, of each level.", false},
+    {"pyramid_reused", Type::boolean, "", "Thresholding: the pyramid kept with the mesh was used.", false},
+    {"locked_vertices", Type::integer, "", "Thresholding: vertices at non-manifold edges or points.", false},
+    {"unreferenced_vertices", Type::integer, "", "Thresholding: vertices without a face.", false},
+};
+
+const Returns attribute_noise_returns{
+    {"*_noise", Type::real, "units of the attribute", "Deviation of the noise found.", false},
+    {"*_noise_per_level", Type::list, "units of the attribute", "Noise in the details of each level.", false},
+    {"*_threshold", Type::list, "units of the attribute", "The threshold used on each level.", false},
+    {"*_zeroed", Type::list, "", "Share of each level's details that became 0.", false},
+};
+
 }  // namespace
 
 const Plugin& table() {
@@ -129,7 +156,8 @@ const Plugin& table() {
                  vertex_quality,
                  vertex_positions,
                  {},
-                 {}},
+                 {},
+                 denoise_returns + change_returns + thresholding_returns},
                 denoise_defaults, bind_denoise, denoise),
             filter<AttributeDenoiseOptions>(
                 {"Multiresolution: Denoise Attributes",
@@ -144,7 +172,8 @@ const Plugin& table() {
                  vertex_color | vertex_quality | custom_attributes,
                  vertex_color | vertex_quality | custom_attributes,
                  {},
-                 {}},
+                 {},
+                 attribute_returns + attribute_noise_returns + pyramid_returns},
                 attribute_defaults, bind_attributes, denoise_attributes),
         }};
     return plugin;

@@ -1,4 +1,5 @@
 #include "bindings.h"
+#include "returns.h"
 
 #include "filters/band_filters.h"
 
@@ -64,6 +65,37 @@ Result run_detail(const Layer& layer, const DetailOptions& options, Session& ses
     return detail_quality(layer, o, session);
 }
 
+const Returns compute_returns{
+    {"levels", Type::integer, "", "Number of the coarsest level; the finest is 0."},
+    {"level", Type::list, "", "0, 1, ... to the coarsest."},
+    {"vertices", Type::list, "", "Vertices of each level."},
+    {"wavelength", Type::list, "mesh units", "Finest wave of each level: twice its mean edge length."},
+    {"rms_detail", Type::list, "mesh units", "Root mean square of each level's details; 0 for the coarsest."},
+    {"reconstruction_error", Type::real, "mesh units", "Largest distance of a vertex after all levels are added up."},
+    {"duplicate_vertices", Type::integer, "", "Vertices at the place of another one."},
+    {"degenerate_faces", Type::integer, "", "Faces with a vertex twice or without area."},
+    {"duplicate_faces", Type::integer, "", "Faces with the vertices of another one."},
+    {"non_manifold_edges", Type::integer, "", "Edges of more than two faces."},
+    {"non_manifold_vertices", Type::integer, "", "Vertices whose faces do not form one fan."},
+    {"boundary_edges", Type::integer, "", "Edges of one face."},
+    {"boundary_loops", Type::integer, "", "Closed boundaries."},
+    {"inconsistent_edges", Type::integer, "", "Edges whose two faces are turned differently."},
+    {"components", Type::integer, "", "Parts that share no edge."},
+};
+
+const Returns level_returns{
+    {"level", Type::integer, "", "The level."},
+    {"vertices", Type::integer, "", "Its vertices."},
+    {"faces", Type::integer, "", "Its faces."},
+    {"wavelength", Type::real, "mesh units", "Twice its mean edge length."},
+};
+
+const Returns detail_returns{
+    {"least_detail", Type::real, "mesh units", "Smallest value written to the vertex quality."},
+    {"largest_detail", Type::real, "mesh units", "Largest value."},
+    {"rms_detail", Type::real, "mesh units", "Root of their mean square."},
+};
+
 }  // namespace
 
 const Plugin& table() {
@@ -84,7 +116,8 @@ const Plugin& table() {
                  none,
                  none,
                  {},
-                 {}},
+                 {},
+                 compute_returns + pyramid_returns},
                 compute_defaults, bind_compute, compute_pyramid),
             filter<GenerateLevelOptions>(
                 {"Multiresolution: Level as New Layer",
@@ -99,7 +132,8 @@ const Plugin& table() {
                  none,
                  new_layer,
                  {},
-                 {}},
+                 {},
+                 level_returns + pyramid_returns},
                 level_defaults, bind_level, run_level),
             filter<DetailOptions>(
                 {"Multiresolution: Detail to Vertex Quality",
@@ -113,7 +147,8 @@ const Plugin& table() {
                  none,
                  vertex_quality,
                  {},
-                 {}},
+                 {},
+                 detail_returns + gains_returns + pyramid_returns},
                 detail_defaults, bind_detail, run_detail),
         }};
     return plugin;

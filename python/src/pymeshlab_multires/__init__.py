@@ -1,0 +1,22 @@
+"""Multiresolution filters for pymeshlab as typed functions.
+
+    import pymeshlab, pymeshlab_multires as multires
+
+    ms = pymeshlab.MeshSet()
+    ms.load_new_mesh("scan.ply")
+    report = multires.denoise(ms)
+
+Importing loads the plugins of the package into pymeshlab. Functions work on the current mesh of the document, take the
+parameters of the filter by name and return its report; a filter that fails raises pymeshlab.PyMeshLabException and
+leaves the document as it was.
+"""
+
+from . import _call
+from ._equalize import EqualizeReport, equalize
+from ._filters import *  # noqa: F403
+from ._filters import __all__ as _filters
+from ._plot import plot_spectrum
+
+__all__ = [*_filters, "EqualizeReport", "equalize", "plot_spectrum"]
+
+_call.load_plugins()

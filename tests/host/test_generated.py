@@ -1,0 +1,99 @@
+"""What tools/generate.py writes from the filter tables: up to date, true, and of use in pymeshlab."""
+
+import sys
+
+import numpy as np
+import pymeshlab
+import pytest
+from conftest import BUILD, FILTER_IDS, FILTERS, PLUGINS
+
+ROOT = BUILD.parents[1]
+sys.path.insert(0, str(ROOT / "tools"))
+import generate  # noqa: E402
+
+for plugin in PLUGINS:
+    pymeshlab.load_plugin(str(plugin))
+EXAMPLES = sorted((ROOT / "examples").glob("*.mlx"))
+TYPES = {"boolean": bool, "integer": int, "real": float, "list": np.ndarray}
+
+# Parameters beside the defaults that bring out what is not always returned.
+MORE = {
+    "generate_multires_adaptive_reconstruction": [{"target": "RMS distance", "use_color": True, "use_quality": True},
+                                                  {"measure": False}],
+    "apply_attributes_multires_relaxation": [{"quality": True, "texcoord": True, "wedge_texcoord": True, "custom": True}],
+    "apply_attributes_multires_band": [{"quality": True}],
+    "apply_attributes_multires_denoise": [{"quality": True, "custom": True}],
+    "apply_coord_multires_denoise": [{"method": "soft threshold"}, {"method": "hard threshold", "keep_volume": True}],
+    "generate_multires_texcoord": [{"projection": "planar"}, {"projection": "existing"}],
+}  # fmt: skip
+
+
+def terrain(meshes):
+    """A document with a mesh that has every kind of attribute."""
+    ms = pymeshlab.MeshSet(verbose=False)
+    ms.load_new_mesh(str(meshes / "terrain.ply"))
+    ms.current_mesh().add_vertex_custom_scalar_attribute(ms.current_mesh().vertex_matrix()[:, 2], "height")
+    ms.compute_texcoord_transfer_vertex_to_wedge()
+    return ms
+
+
+def wanted():
+    return generate.files(generate.tables(BUILD))
+
+
+@pytest.mark.parametrize("path", wanted())
+def test_file_is_up_to_date(path):
+    assert (ROOT / path).read_text() == wanted()[path], "run tools/generate.py"
+
+
+def test_there_are_no_other_examples():
+    assert {f"examples/{p.name}" for p in EXAMPLES} == {p for p in wanted() if p.endswith(".mlx")}
+
+
+def test_every_filter_and_parameter_is_in_the_reference():
+    text = (ROOT / "docs/parameters.md").read_text()
+    for row in FILTERS:
+        part = text.split(f'<a id="{row["python_name"]}"></a>')[1].split("<a id=")[0]
+        assert row["name"] in part and "<i>" not in part
+        for name in [*(p["name"] for p in row["parameters"]), *(r["key"] for r in row["returns"])]:
+            assert f"| `{name}`" in part
+        assert '": "' not in part and '"' in part, "no paper is cited"
+
+
+def declared(row, key):
+    """The entry of the table that stands for a key of a report."""
+    for r in sorted(row["returns"], key=lambda r: -len(r["key"])):
+        if r["key"] == key or (r["key"].startswith("*") and key.endswith(r["key"][1:])):
+            return r
+    return None
+
+
+@pytest.mark.parametrize("row", FILTERS, ids=FILTER_IDS)
+def test_reports_hold_what_the_table_says(row, meshes):
+    seen = set()
+    for more in [{}, *MORE.get(row["python_name"], [])]:
+        report = terrain(meshes).apply_filter(row["python_name"], **more)
+        for key, value in report.items():
+            entry = declared(row, key)
+            assert entry, f"{key} is returned and not declared"
+            assert isinstance(value, TYPES[entry["type"]]), key
+            seen.add(entry["key"])
+        assert {r["key"] for r in row["returns"] if r["always"]} <= set(report)
+    assert {r["key"] for r in row["returns"]} == seen, "declared and not returned"
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda p: p.stem)
+def test_example_runs_in_pymeshlab(path, meshes):
+    """With the same result as the filters called one by one."""
+    ms, other = terrain(meshes), terrain(meshes)
+    ms.load_filter_script(str(path))
+    ms.apply_filter_script()
+    for name, parameters in generate.EXAMPLES[path.stem][1]:
+        other.apply_filter(name, **parameters)
+    before = terrain(meshes).current_mesh()
+    mesh, same = ms.current_mesh(), other.current_mesh()
+    np.testing.assert_allclose(mesh.vertex_matrix(), same.vertex_matrix(), atol=1e-6)
+    np.testing.assert_array_equal(mesh.vertex_color_matrix(), same.vertex_color_matrix())
+    changed = (mesh.vertex_number() != before.vertex_number() or np.ptp(mesh.vertex_matrix() - before.vertex_matrix()) > 0
+               or np.ptp(mesh.vertex_color_matrix() - before.vertex_color_matrix()) > 0)  # fmt: skip
+    assert changed
