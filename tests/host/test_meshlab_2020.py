@@ -1,12 +1,19 @@
 """The plugins in meshlabserver 2020.09 as Debian packages it."""
 
+import sys
 import xml.etree.ElementTree as ET
 
 import numpy as np
 import pymeshlab
 import pytest
-from conftest import FILTER_IDS, FILTERS
+from conftest import BUILD, FILTER_IDS, FILTERS
 from meshlab_program import display, run, tree  # noqa: F401  fixtures
+
+ROOT = BUILD.parents[1]
+sys.path.insert(0, str(ROOT / "tools"))
+import generate  # noqa: E402
+
+EXAMPLES = sorted((ROOT / "examples").glob("*.mlx"))
 
 
 def script(path, *filters):
@@ -14,24 +21,9 @@ def script(path, *filters):
     if two are missing."""
     root = ET.Element("FilterScript")
     for name, parameters in filters:
-        add_filter(root, name, parameters)
+        ET.SubElement(root, "filter", name=name).extend(generate.param(p, p["value"]) for p in parameters)
     path.write_text("<!DOCTYPE FilterScript>\n" + ET.tostring(root, encoding="unicode"))
     return path
-
-
-def add_filter(root, name, parameters):
-    element = ET.SubElement(root, "filter", name=name)
-    rich = {"boolean": "RichBool", "integer": "RichInt", "real": "RichFloat", "slider": "RichDynamicFloat", "choice": "RichEnum", "text": "RichString"}
-    for p in parameters:
-        value = str(p["value"]).lower() if p["type"] == "boolean" else str(p["value"])
-        param = ET.SubElement(element, "Param", type=rich[p["type"]], name=p["name"], value=value)
-        if p["type"] == "slider":
-            param.set("min", str(p["least"]))
-            param.set("max", str(p["most"]))
-        if p["type"] == "choice":
-            param.set("enum_cardinality", str(len(p["names"])))
-            for i, text in enumerate(p["names"]):
-                param.set(f"enum_val{i}", text)
 
 
 class Server:
@@ -44,7 +36,9 @@ class Server:
         return self.apply_all(mesh, [(name, parameters)], *layer)
 
     def apply_all(self, mesh, filters, *layer):
-        mlx = script(self.folder / "script.mlx", *filters)
+        return self.apply_script(mesh, script(self.folder / "script.mlx", *filters), *layer)
+
+    def apply_script(self, mesh, mlx, *layer):
         done = self.run("meshlabserver", "-i", mesh, "-s", mlx, "-o", self.output, *layer, "-m", "vc", "vq", "vn")
         return done.returncode, done.stdout
 
@@ -91,7 +85,7 @@ def test_parameters_come_through_and_numbers_are_logged(server, meshes):
         assert line in log
 
 
-@pytest.mark.parametrize("name, value", [("count", 0), ("count", 11), ("length", -1), ("length", "nan"), ("amount", 7), ("color", 3), ("color", -1)])
+@pytest.mark.parametrize("name, value", [("count", 0), ("count", 11), ("length", -1), ("length", np.nan), ("amount", 7), ("color", 3), ("color", -1)])
 def test_values_out_of_range_are_refused_by_name(server, meshes, name, value):
     code, log = server.apply(meshes / "disk.ply", "Multiresolution: Parameters (probe)", changed(name, value))
     assert code != 0 and f'Parameter "{name}"' in log
@@ -168,3 +162,14 @@ def test_the_original_comes_back_bit_for_bit_in_single_precision(server, meshes)
     np.testing.assert_array_equal(load(server.output).vertex_matrix(), before)
     server.apply_all(mesh, [*many, with_values("equalizer", relative_to=0, **ones)])
     assert not np.array_equal(load(server.output).vertex_matrix(), before)
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda p: p.stem)
+def test_example_runs(server, meshes, path):
+    code, log = server.apply_script(meshes / "terrain.ply", path)
+    assert code == 0, log
+    old, new = load(meshes / "terrain.ply"), load(server.output)
+    assert np.isfinite(new.vertex_matrix()).all()
+    changed = (new.vertex_number() != old.vertex_number() or np.ptp(new.vertex_matrix() - old.vertex_matrix()) > 1e-4
+               or np.ptp(new.vertex_color_matrix() - old.vertex_color_matrix()) > 0)  # fmt: skip
+    assert changed, log

@@ -472,6 +472,9 @@ def build_pyramid(
 
     The mesh is not changed. Returned for each level: number of vertices, wavelength (twice the mean edge length)
     and root mean square of the details; the largest error of the reconstruction; and what is unusual in the mesh.
+    See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999. See  Roy,
+    Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics
+    Technologies 2003.
 
     The filter compute_multires_pyramid, on the current mesh; the mesh is unchanged if it fails.
 
@@ -479,8 +482,9 @@ def build_pyramid(
         ms: the document.
         scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
             structure follows when coarse structure is changed.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
             noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
         grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
@@ -500,12 +504,6 @@ def build_pyramid(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Igor Guskov, Wim Sweldens, Peter Schröder: "Multiresolution Signal Processing for Meshes", Proceedings of
-            SIGGRAPH 1999, pages 325-334.
-        Michaël Roy, Sebti Foufou, Andreas Koschan, Frédéric Truchetet, Mongi Abidi: "Multiresolution Analysis for
-            Irregular Meshes", SPIE Photonics Technologies for Robotics, Automation, and Manufacturing, 2003.
     """
     return apply(BuildPyramidReport, ms, "compute_multires_pyramid", {
         "scheme": scheme,
@@ -542,7 +540,8 @@ def level_as_layer(
     """Makes a new layer with the mesh of one level of the pyramid: a subset of the vertices with all their
     attributes.
 
-    The custom vertex attribute  source_vertex  holds the index of each in the input.
+    The custom vertex attribute  source_vertex  holds the index of each in the input.  See  Roy, Foufou, Koschan,
+    Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics Technologies 2003.
 
     The filter generate_multires_level, on the current mesh; the mesh is unchanged if it fails.
 
@@ -555,8 +554,9 @@ def level_as_layer(
             (presmoothed) instead of where they are in the mesh.
         scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
             structure follows when coarse structure is changed.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
             noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
         grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
@@ -576,10 +576,6 @@ def level_as_layer(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Michaël Roy, Sebti Foufou, Andreas Koschan, Frédéric Truchetet, Mongi Abidi: "Multiresolution Analysis for
-            Irregular Meshes", SPIE Photonics Technologies for Robotics, Automation, and Manufacturing, 2003.
     """
     return apply(LevelAsLayerReport, ms, "generate_multires_level", {
         "level": level,
@@ -621,6 +617,8 @@ def detail_to_quality(
     """Stores in the vertex quality how much a band of scales adds to the shape at each vertex: the distance to
     where the vertex would be without the band, or its signed part along the normal, in mesh units.
 
+    See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999.
+
     The filter compute_scalar_multires_detail_per_vertex, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
@@ -639,8 +637,9 @@ def detail_to_quality(
             outwards, instead of its length.
         scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
             structure follows when coarse structure is changed.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
             noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
         grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
@@ -660,10 +659,6 @@ def detail_to_quality(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Igor Guskov, Wim Sweldens, Peter Schröder: "Multiresolution Signal Processing for Meshes", Proceedings of
-            SIGGRAPH 1999, pages 325-334.
     """
     return apply(DetailToQualityReport, ms, "compute_scalar_multires_detail_per_vertex", {
         "unit": unit,
@@ -709,6 +704,8 @@ def low_pass(
     """Removes everything finer than a wavelength and keeps everything coarser, in one pass, without shrinking the
     shape.
 
+    See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999.
+
     The filter apply_coord_multires_low_pass, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
@@ -732,8 +729,9 @@ def low_pass(
             not hold it.
         scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
             structure follows when coarse structure is changed.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
             noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
         grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
@@ -753,10 +751,6 @@ def low_pass(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Igor Guskov, Wim Sweldens, Peter Schröder: "Multiresolution Signal Processing for Meshes", Proceedings of
-            SIGGRAPH 1999, pages 325-334.
     """
     return apply(LowPassReport, ms, "apply_coord_multires_low_pass", {
         "unit": unit,
@@ -803,6 +797,10 @@ def stop_band(
 ) -> StopBandReport:
     """Removes the structure between two wavelengths; finer engraving and the coarse shape stay.
 
+    See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999. See  Roy,
+    Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics
+    Technologies 2003.
+
     The filter apply_coord_multires_stop_band, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
@@ -828,8 +826,9 @@ def stop_band(
             not hold it.
         scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
             structure follows when coarse structure is changed.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
             noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
         grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
@@ -849,12 +848,6 @@ def stop_band(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Igor Guskov, Wim Sweldens, Peter Schröder: "Multiresolution Signal Processing for Meshes", Proceedings of
-            SIGGRAPH 1999, pages 325-334.
-        Michaël Roy, Sebti Foufou, Andreas Koschan, Frédéric Truchetet, Mongi Abidi: "Multiresolution Analysis for
-            Irregular Meshes", SPIE Photonics Technologies for Robotics, Automation, and Manufacturing, 2003.
     """
     return apply(StopBandReport, ms, "apply_coord_multires_stop_band", {
         "unit": unit,
@@ -904,12 +897,16 @@ def enhance(
     """Multiplies the structure between two wavelengths by a gain: brings out what is worn, or weakens what
     disturbs.
 
+    See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999. See  Roy,
+    Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics
+    Technologies 2003.
+
     The filter apply_coord_multires_enhance, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
         gain: Gain. Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them. A number,
-            0 to 8.
+            0 to 10.
         unit: Unit. What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the
             finest a mesh can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the
             diagonal of the bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the
@@ -931,8 +928,9 @@ def enhance(
             not hold it.
         scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
             structure follows when coarse structure is changed.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
             noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
         grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
@@ -952,12 +950,6 @@ def enhance(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Igor Guskov, Wim Sweldens, Peter Schröder: "Multiresolution Signal Processing for Meshes", Proceedings of
-            SIGGRAPH 1999, pages 325-334.
-        Michaël Roy, Sebti Foufou, Andreas Koschan, Frédéric Truchetet, Mongi Abidi: "Multiresolution Analysis for
-            Irregular Meshes", SPIE Photonics Technologies for Robotics, Automation, and Manufacturing, 2003.
     """
     return apply(EnhanceReport, ms, "apply_coord_multires_enhance", {
         "gain": gain,
@@ -1009,30 +1001,31 @@ def equalizer(
     features: Features = "none",
     feature_angle: float = 40.0,
 ) -> EqualizerReport:
-    """Eight gains for eight bands from fine to coarse.
+    """Eight gains for eight bands of wavelengths from fine to coarse, given in the mesh's unit.
 
-    With all gains at 1 the mesh comes back unchanged.
+    With all gains at 1 the mesh comes back unchanged.  See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal
+    Processing for Meshes" , SIGGRAPH 1999.
 
     The filter apply_coord_multires_equalizer, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        gain_1: Gain 1. Factor for waves of these lengths (mesh units): 1 leaves them, 0 removes them, 2 doubles
-            them. A number, 0 to 4.
-        gain_2: Gain 2. Factor for waves of these lengths (mesh units): 1 leaves them, 0 removes them, 2 doubles
-            them. A number, 0 to 4.
-        gain_3: Gain 3. Factor for waves of these lengths (mesh units): 1 leaves them, 0 removes them, 2 doubles
-            them. A number, 0 to 4.
-        gain_4: Gain 4. Factor for waves of these lengths (mesh units): 1 leaves them, 0 removes them, 2 doubles
-            them. A number, 0 to 4.
-        gain_5: Gain 5. Factor for waves of these lengths (mesh units): 1 leaves them, 0 removes them, 2 doubles
-            them. A number, 0 to 4.
-        gain_6: Gain 6. Factor for waves of these lengths (mesh units): 1 leaves them, 0 removes them, 2 doubles
-            them. A number, 0 to 4.
-        gain_7: Gain 7. Factor for waves of these lengths (mesh units): 1 leaves them, 0 removes them, 2 doubles
-            them. A number, 0 to 4.
-        gain_8: Gain 8. Factor for waves of these lengths (mesh units): 1 leaves them, 0 removes them, 2 doubles
-            them. A number, 0 to 4.
+        gain_1: Gain 1. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
+            doubles it. A number, 0 to 4.
+        gain_2: Gain 2. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
+            doubles it. A number, 0 to 4.
+        gain_3: Gain 3. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
+            doubles it. A number, 0 to 4.
+        gain_4: Gain 4. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
+            doubles it. A number, 0 to 4.
+        gain_5: Gain 5. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
+            doubles it. A number, 0 to 4.
+        gain_6: Gain 6. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
+            doubles it. A number, 0 to 4.
+        gain_7: Gain 7. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
+            doubles it. A number, 0 to 4.
+        gain_8: Gain 8. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
+            doubles it. A number, 0 to 4.
         softness: Softness. Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
             10.
         selected: Only on selection. Change selected vertices and the vertices of selected faces only. The selection
@@ -1046,8 +1039,9 @@ def equalizer(
             not hold it.
         scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
             structure follows when coarse structure is changed.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
             noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
         grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
@@ -1067,10 +1061,6 @@ def equalizer(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Igor Guskov, Wim Sweldens, Peter Schröder: "Multiresolution Signal Processing for Meshes", Proceedings of
-            SIGGRAPH 1999, pages 325-334.
     """
     return apply(EqualizerReport, ms, "apply_coord_multires_equalizer", {
         "gain_1": gain_1,
@@ -1113,18 +1103,20 @@ def unsharp(
 ) -> UnsharpReport:
     """Strengthens (or weakens) what some steps of relaxation would take away, without a pyramid.
 
-    Best for small meshes; scans with noise are better served by the bands.
+    Best for small meshes; scans with noise are better served by the bands.  See  Guskov, Sweldens, Schröder ,
+    "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999.
 
     The filter apply_coord_multires_unsharp, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
         xi: Strength. 1 changes nothing; 2 doubles what the relaxation takes away; between 0 and 1 smooths, 0 fully.
-            A number, 0 to 8.
+            A number, 0 to 10.
         iterations: Relaxation steps. More steps reach coarser structure; each costs the same. A whole number, 1 to
             10000.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         selected: Only on selection. Change selected vertices and the vertices of selected faces only. The selection
             stays as it is. None: derived from the mesh.
         quality_mask: Quality as mask. Scale the effect at each vertex by its quality: 0 is no change, 1 the full
@@ -1141,10 +1133,6 @@ def unsharp(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Igor Guskov, Wim Sweldens, Peter Schröder: "Multiresolution Signal Processing for Meshes", Proceedings of
-            SIGGRAPH 1999, pages 325-334.
     """
     return apply(UnsharpReport, ms, "apply_coord_multires_unsharp", {
         "xi": xi,
@@ -1189,7 +1177,10 @@ def denoise(
 ) -> DenoiseReport:
     """Removes noise and keeps shape, without a parameter to set.
 
-    The report says how much noise was found at each scale and how much was taken out.
+    The report says how much noise was found at each scale and how much was taken out.  See  Roy, Foufou, Koschan,
+    Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics Technologies 2003. See
+    Sun, Rosin, Martin, Langbein ,  "Fast and Effective Feature-Preserving Mesh Denoising" , IEEE TVCG 2007. See
+    Zheng, Fu, Au, Tai ,  "Bilateral Normal Filtering for Mesh Denoising" , IEEE TVCG 2011.
 
     The filter apply_coord_multires_denoise, on the current mesh; the mesh is unchanged if it fails.
 
@@ -1202,8 +1193,8 @@ def denoise(
             diagonal of the bounding box: the value below.
         threshold: Threshold value. Size of the noise if the threshold is not automatic: its standard deviation for
             the normal field, the length up to which details are dropped for the others. A number, at least 0.
-        strength: Strength. Factor for the automatic threshold: 1 removes the noise found, 2 takes twice as much for
-            noise. A number, 0.05 to 4.
+        strength: Strength. Factor for the noise: 1 removes the noise found, 2 takes twice as much for noise, 0
+            changes nothing. The threshold methods use it if their threshold is automatic. A number, 0 to 4.
         keep_volume: Keep volume. Shift the surface along its normals until the volume is that of the input.
         confidence: Quality as confidence. Vertex quality says how far a vertex is trusted: 1 stays, 0 gets the full
             threshold.
@@ -1226,8 +1217,9 @@ def denoise(
             it. A whole number, 1 to 64.
         scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
             structure follows when coarse structure is changed.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
             noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
         grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
@@ -1247,14 +1239,6 @@ def denoise(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Michaël Roy, Sebti Foufou, Andreas Koschan, Frédéric Truchetet, Mongi Abidi: "Multiresolution Analysis for
-            Irregular Meshes", SPIE Photonics Technologies for Robotics, Automation, and Manufacturing, 2003.
-        Xianfang Sun, Paul L. Rosin, Ralph R. Martin, Frank C. Langbein: "Fast and Effective Feature-Preserving Mesh
-            Denoising", IEEE Transactions on Visualization and Computer Graphics 13(5), 2007.
-        Youyi Zheng, Hongbo Fu, Oscar Kin-Chung Au, Chiew-Lan Tai: "Bilateral Normal Filtering for Mesh Denoising",
-            IEEE Transactions on Visualization and Computer Graphics 17(10), 2011.
     """
     return apply(DenoiseReport, ms, "apply_coord_multires_denoise", {
         "method": method,
@@ -1309,7 +1293,8 @@ def relax_attributes(
     points.
 
     Every value becomes a mean of those around it with weights from the geometry, which itself stays as it is.
-    Colours are rounded once, at the end.
+    Colours are rounded once, at the end.  See  Roy, Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis
+    for Irregular Meshes" , SPIE Photonics Technologies 2003.
 
     The filter apply_attributes_multires_relaxation, on the current mesh; the mesh is unchanged if it fails.
 
@@ -1348,10 +1333,6 @@ def relax_attributes(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Michaël Roy, Sebti Foufou, Andreas Koschan, Frédéric Truchetet, Mongi Abidi: "Multiresolution Analysis for
-            Irregular Meshes", SPIE Photonics Technologies for Robotics, Automation, and Manufacturing, 2003.
     """
     return apply(RelaxAttributesReport, ms, "apply_attributes_multires_relaxation", {
         "color": color,
@@ -1402,7 +1383,9 @@ def filter_attributes(
 ) -> FilterAttributesReport:
     """Low pass, stop band or enhancement of vertex colour or quality by scale, through the pyramid of the surface.
 
-    The geometry stays as it is.
+    The geometry stays as it is.  See  Roy, Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for
+    Irregular Meshes" , SPIE Photonics Technologies 2003. See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal
+    Processing for Meshes" , SIGGRAPH 1999.
 
     The filter apply_attributes_multires_band, on the current mesh; the mesh is unchanged if it fails.
 
@@ -1435,8 +1418,9 @@ def filter_attributes(
             one, values outside are clamped.
         scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
             structure follows when coarse structure is changed.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
             noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
         grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
@@ -1456,12 +1440,6 @@ def filter_attributes(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Michaël Roy, Sebti Foufou, Andreas Koschan, Frédéric Truchetet, Mongi Abidi: "Multiresolution Analysis for
-            Irregular Meshes", SPIE Photonics Technologies for Robotics, Automation, and Manufacturing, 2003.
-        Igor Guskov, Wim Sweldens, Peter Schröder: "Multiresolution Signal Processing for Meshes", Proceedings of
-            SIGGRAPH 1999, pages 325-334.
     """
     return apply(FilterAttributesReport, ms, "apply_attributes_multires_band", {
         "color": color,
@@ -1518,7 +1496,9 @@ def filter_custom_attributes(
     """Low pass, stop band or enhancement of custom scalars and points of the vertices by scale, through the pyramid
     of the surface.
 
-    The geometry stays as it is.
+    The geometry stays as it is.  See  Roy, Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for
+    Irregular Meshes" , SPIE Photonics Technologies 2003. See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal
+    Processing for Meshes" , SIGGRAPH 1999.
 
     The filter apply_attributes_multires_band_custom, on the current mesh; the mesh is unchanged if it fails.
 
@@ -1548,8 +1528,9 @@ def filter_custom_attributes(
             one, values outside are clamped.
         scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
             structure follows when coarse structure is changed.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
             noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
         grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
@@ -1569,12 +1550,6 @@ def filter_custom_attributes(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Michaël Roy, Sebti Foufou, Andreas Koschan, Frédéric Truchetet, Mongi Abidi: "Multiresolution Analysis for
-            Irregular Meshes", SPIE Photonics Technologies for Robotics, Automation, and Manufacturing, 2003.
-        Igor Guskov, Wim Sweldens, Peter Schröder: "Multiresolution Signal Processing for Meshes", Proceedings of
-            SIGGRAPH 1999, pages 325-334.
     """
     return apply(FilterCustomAttributesReport, ms, "apply_attributes_multires_band_custom", {
         "custom_names": custom_names,
@@ -1633,6 +1608,8 @@ def denoise_attributes(
     parameter to set; the geometry stays as it is.
 
     The report says how much noise was found at each level, the threshold used and the share of details that went.
+    See  Roy, Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics
+    Technologies 2003.
 
     The filter apply_attributes_multires_denoise, on the current mesh; the mesh is unchanged if it fails.
 
@@ -1661,8 +1638,9 @@ def denoise_attributes(
             one, values outside are clamped.
         scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
             structure follows when coarse structure is changed.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
             noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
         grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
@@ -1682,10 +1660,6 @@ def denoise_attributes(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Michaël Roy, Sebti Foufou, Andreas Koschan, Frédéric Truchetet, Mongi Abidi: "Multiresolution Analysis for
-            Irregular Meshes", SPIE Photonics Technologies for Robotics, Automation, and Manufacturing, 2003.
     """
     return apply(DenoiseAttributesReport, ms, "apply_attributes_multires_denoise", {
         "color": color,
@@ -1736,7 +1710,8 @@ def generate_texcoord(
     """Projects a coarse level of the pyramid to a cylinder, a sphere or a plane and subdivides its texture
     coordinates to the finest level: they vary smoothly however rough the surface is.
 
-    Makes vertex and wedge texture coordinates; wedges go on beyond 1 where a face crosses the seam.
+    Makes vertex and wedge texture coordinates; wedges go on beyond 1 where a face crosses the seam.  See  Guskov,
+    Sweldens, Schröder ,  "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999.
 
     The filter generate_multires_texcoord, on the current mesh; the mesh is unchanged if it fails.
 
@@ -1751,8 +1726,9 @@ def generate_texcoord(
             A whole number, at least 1.
         scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
             structure follows when coarse structure is changed.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
             noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
         grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
@@ -1772,10 +1748,6 @@ def generate_texcoord(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Igor Guskov, Wim Sweldens, Peter Schröder: "Multiresolution Signal Processing for Meshes", Proceedings of
-            SIGGRAPH 1999, pages 325-334.
     """
     return apply(GenerateTexcoordReport, ms, "generate_multires_texcoord", {
         "projection": projection,
@@ -1829,10 +1801,9 @@ def adaptive_reconstruction(
     """Makes a new layer that holds only the vertices whose detail exceeds a threshold, and all they depend on: many
     where the surface, its colour, quality or texture changes, few elsewhere.
 
-    Threshold 0 gives the input, a very large one the coarsest mesh; the threshold can also be found for a number of
-    faces or vertices or an error bound. Attributes are carried over; the custom vertex attribute  source_vertex
-    holds the index of each vertex in the input. Returned: faces, vertices, threshold used, and the distance to the
-    input measured both ways.
+    The threshold can also be found for a number of faces or vertices or an error bound. The custom vertex attribute
+    source_vertex  holds the index of each vertex in the input.  See  Roy, Foufou, Koschan, Truchetet, Abidi ,
+    "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics Technologies 2003.
 
     The filter generate_multires_adaptive_reconstruction, on the current mesh; the mesh is unchanged if it fails.
 
@@ -1883,8 +1854,9 @@ def adaptive_reconstruction(
             least 0.
         coarsest: Coarsest. Coarse limit of the band: wavelength in mesh units. None: derived from the mesh. A
             number, at least 0.
-        operator: Relaxation operator. How a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
+            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
+            vertices drift.
         base_vertices: Base vertices. Vertices of the base mesh. A whole number, at least 4.
         normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
         features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
@@ -1894,10 +1866,6 @@ def adaptive_reconstruction(
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
-
-    See:
-        Michaël Roy, Sebti Foufou, Andreas Koschan, Frédéric Truchetet, Mongi Abidi: "Multiresolution Analysis for
-            Irregular Meshes", SPIE Photonics Technologies for Robotics, Automation, and Manufacturing, 2003.
     """
     return apply(AdaptiveReconstructionReport, ms, "generate_multires_adaptive_reconstruction", {
         "target": target,
