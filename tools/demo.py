@@ -125,7 +125,6 @@ def main():
     parser.add_argument("--plugins", type=pathlib.Path, default=BUILD / "plugins")
     parser.add_argument("--up", choices=("x", "y", "z", "-x", "-y", "-z"), help="axis that points up in the pictures")
     parser.add_argument("--tile", type=int, default=520, help="side of one picture, pixels")
-    parser.add_argument("--small", type=pathlib.Path, help="also save the contact sheet here, and the second one beside it, below 300 KB")
     arguments = parser.parse_args()
 
     load_plugins(arguments.plugins)
@@ -148,12 +147,8 @@ def main():
     camera = rendering.three_quarter_camera(panels[0].vertices, panels[0].faces, arguments.up)
     sheet = rendering.contact_sheet(panels, camera, arguments.tile)
     sheet.save(output / "contact-sheet.png", optimize=True)
-    if arguments.small:
-        rendering.save_small(sheet, arguments.small)
     second = rendering.contact_sheet(others, camera, arguments.tile)
     second.save(output / SECOND_SHEET, optimize=True)
-    if arguments.small:
-        rendering.save_small(second, arguments.small.parent / SECOND_SHEET)
     print(f"Meshes, tables, contact-sheet.png and {SECOND_SHEET} are in {output}")
 
 

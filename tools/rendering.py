@@ -181,12 +181,3 @@ def contact_sheet(panels, camera=None, tile=420, close_ups=True):
             centre, reach = (left + (x + 1) / 2 * tile, caption - first + (1 - y) / 2 * tile), CLOSE_UP * tile / 2
             draw.rectangle([c - reach for c in centre] + [c + reach for c in centre], outline=MARK, width=line)
     return sheet
-
-
-def save_small(picture, path, most_bytes=300_000):
-    """Saves a PNG of at most `most_bytes`, with fewer colours and then fewer pixels as needed."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    picture.save(path, optimize=True)
-    while path.stat().st_size > most_bytes:
-        picture.quantize(256, dither=Image.Dither.NONE).save(path, optimize=True)
-        picture = picture.resize((int(picture.width * 0.9), int(picture.height * 0.9)), Image.Resampling.LANCZOS)

@@ -1,5 +1,6 @@
 """What tools/generate.py writes from the filter tables: up to date, true, and of use in pymeshlab."""
 
+import re
 import sys
 
 import numpy as np
@@ -58,6 +59,24 @@ def test_every_filter_and_parameter_is_in_the_reference():
         for name in [*(p["name"] for p in row["parameters"]), *(r["key"] for r in row["returns"])]:
             assert f"| `{name}`" in part
         assert '": "' not in part and '"' in part, "no paper is cited"
+
+
+@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md", "docs/denoising.md", "docs/parameters.md", "python/README.md", "examples/README.md"])
+def test_links_lead_somewhere(name):
+    text = (ROOT / name).read_text()
+    for link in re.findall(r"\]\(([^)\s]+)\)|<img src=\"([^\"]+)\"", text):
+        path, _, anchor = "".join(link).partition("#")
+        target = (ROOT / name).parent / path if path else ROOT / name
+        assert path.startswith("http") or target.exists(), link
+        assert not anchor or f'<a id="{anchor}"></a>' in target.read_text(), link
+
+
+def test_every_filter_has_a_picture_in_the_readme_and_all_are_small():
+    readme = (ROOT / "README.md").read_text()
+    for row in FILTERS:
+        line = next(line for line in readme.splitlines() if f"`{row['python_name']}`<br>" in line)
+        assert f"docs/pictures/{generate.function_name(row).replace('_', '-')}.webp" in line
+    assert sum(p.stat().st_size for p in (ROOT / "docs/pictures").iterdir()) < 3_000_000
 
 
 def declared(row, key):

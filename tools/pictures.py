@@ -1,0 +1,180 @@
+"""Makes the pictures of the README and the parameter reference: every filter, before and after.
+
+    .venv/bin/python tools/pictures.py [--only NAME ...]
+
+They go to docs/pictures/, one NAME.webp a filter, and top.webp for the head of the README. The mesh is the bunny that
+comes with pymeshlab; noise and paint are added here.
+"""
+
+import argparse
+import pathlib
+
+import numpy as np
+import pymeshlab
+
+import rendering
+from demo import BUNNY
+from generate import FUNCTIONS
+from measuring import ROOT, arrays, document, load_plugins, read, with_noise
+from rendering import Panel
+
+FOLDER = ROOT / "docs/pictures"
+PERCENT = {"unit": "wavelength percent"}
+VALUES = "viridis"  # colour map of scalars
+
+
+# ---- inputs ----------------------------------------------------------------------------------------------------------
+
+
+def stripes(v):
+    """Two colours in stripes, with noise: #V by 4."""
+    random = np.random.default_rng(1)
+    height = (v - v.min(axis=0)) / np.ptp(v, axis=0).max()
+    stripe = (np.floor(9 * height[:, 1:2]) % 2).astype(float)
+    colors = stripe * [0.88, 0.5, 0.2, 1] + (1 - stripe) * [0.18, 0.42, 0.66, 1]
+    colors[:, :3] = np.clip(colors[:, :3] + 0.25 * random.normal(size=(len(v), 3)), 0, 1)
+    return colors
+
+
+def waves(v):
+    """A scalar with long waves and fine noise."""
+    scale = np.ptp(v, axis=0).max()
+    return np.sin(9 * v[:, 0] / scale) + np.cos(7 * v[:, 1] / scale) + 0.6 * np.random.default_rng(2).normal(size=len(v))
+
+
+def with_colors(v, f):
+    ms = document()
+    ms.add_mesh(pymeshlab.Mesh(vertex_matrix=v, face_matrix=f, v_color_matrix=stripes(v)))
+    return ms
+
+
+def with_scalar(v, f):
+    ms = document(v, f)
+    ms.current_mesh().add_vertex_custom_scalar_attribute(waves(v), "waves")
+    return ms
+
+
+def noisy(v, f):
+    return document(with_noise(v, f, "normals", 0.2, seed=1), f)
+
+
+# ---- looks -----------------------------------------------------------------------------------------------------------
+
+
+def shaded(title, words, ms):
+    return Panel(title, words, *arrays(ms.current_mesh()))
+
+
+def painted(title, words, ms):
+    return Panel(title, words, *arrays(ms.current_mesh()), ms.current_mesh().vertex_color_matrix()[:, :3])
+
+
+def meshed(title, words, ms):
+    return Panel(title, f"{ms.current_mesh().vertex_number():,} vertices{words}", *arrays(ms.current_mesh()), edges=True)
+
+
+def custom(title, words, ms):
+    values = ms.current_mesh().vertex_custom_scalar_attribute_array("waves")
+    return Panel(title, words, *arrays(ms.current_mesh()), rendering.coloured(values, -2, 2, VALUES))
+
+
+def quality(title, words, ms):
+    values = ms.current_mesh().vertex_scalar_array()
+    return Panel(title, words, *arrays(ms.current_mesh()),
+                 rendering.coloured(values, *np.quantile(values, (0.02, 0.98)), VALUES))  # fmt: skip
+
+
+def checkered(title, words, ms):
+    """A checkerboard in the texture coordinates, drawn by small parts of the faces."""
+    v, f = arrays(ms.current_mesh())
+    corners = np.hstack([v[f.ravel()], ms.current_mesh().wedge_tex_coord_matrix()]).reshape(-1, 3, 5)
+    for _ in range(2):  # every triangle becomes four
+        a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+        ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
+        corners = np.concatenate([np.stack(t, axis=1) for t in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+    flat = corners.reshape(-1, 5)
+    board = (np.floor(flat[:, 3:] * [24, 12]).sum(axis=1) % 2)[:, None]
+    return Panel(title, words, flat[:, :3], np.arange(len(flat)).reshape(-1, 3),
+                 board * [0.93, 0.91, 0.86] + (1 - board) * [0.16, 0.42, 0.46])  # fmt: skip
+
+
+# ---- pictures --------------------------------------------------------------------------------------------------------
+
+# Filter: how the input is made and looks, what is said of it; parameters; how the result looks, what is said of it.
+PAIRS = {
+    "compute_multires_pyramid": None,  # levels()
+    "generate_multires_level": (document, meshed, "", {"level": 9}, meshed, ", level 9"),
+    "compute_scalar_multires_detail_per_vertex": (
+        document, shaded, "", {**PERCENT, "finest": 1, "coarsest": 6, "signed_normal": True}, quality, "1 to 6 % of the box, signed"),
+    "apply_coord_multires_low_pass": (document, shaded, "", {**PERCENT, "cutoff": 4}, shaded, "cutoff 4 % of the box"),
+    "apply_coord_multires_stop_band": (document, shaded, "", {**PERCENT, "finest": 3, "coarsest": 12}, shaded, "3 to 12 % removed"),
+    "apply_coord_multires_enhance": (document, shaded, "", {**PERCENT, "finest": 1.5, "coarsest": 12, "gain": 2.5}, shaded, "1.5 to 12 %, gain 2.5"),
+    "apply_coord_multires_equalizer": (
+        document, shaded, "", {"gain_1": 0, "gain_2": 0, "gain_3": 0, "gain_4": 3, "gain_5": 2.5}, shaded, "gains 0 0 0 3 2.5 1 1 1"),
+    "apply_coord_multires_unsharp": (document, shaded, "", {}, shaded, "strength 2, 10 steps: the defaults"),
+    "apply_coord_multires_denoise": (noisy, shaded, "noise of 0.2 edge lengths", {}, shaded, "no parameter given"),
+    "apply_attributes_multires_relaxation": (with_colors, painted, "noise on the colours", {"iterations": 20}, painted, "20 iterations"),
+    "apply_attributes_multires_band": (with_colors, painted, "noise on the colours", {**PERCENT, "cutoff": 5}, painted, "low pass, cutoff 5 %"),
+    "apply_attributes_multires_band_custom": (with_scalar, custom, "a scalar with noise", {**PERCENT, "cutoff": 6}, custom, "low pass, cutoff 6 %"),
+    "apply_attributes_multires_denoise": (with_colors, painted, "noise on the colours", {"strength": 1.5}, painted, "strength 1.5"),
+    "generate_multires_texcoord": (document, shaded, "", {"projection": "cylindrical", "axis": "y"}, checkered, "cylinder, checkered"),
+    "generate_multires_adaptive_reconstruction": (document, meshed, "", {"target": "RMS distance", "unit": "percent", "error": 0.05}, meshed, ", RMS 0.05 %"),
+}  # fmt: skip
+
+
+def title_of(name):
+    return FUNCTIONS[name].replace("_", " ").capitalize()
+
+
+def pair(name, v, f):
+    make, look, words, parameters, look_after, words_after = PAIRS[name]
+    ms = make(v, f)
+    before = look("Before", words or ("" if look is meshed else f"{len(v):,} vertices"), ms)
+    ms.apply_filter(name, **parameters)
+    return [before, look_after(title_of(name), words_after, ms)]
+
+
+def levels(v, f):
+    panels = []
+    for level in (0, 9):
+        ms = document(v, f)
+        ms.apply_filter("generate_multires_level", level=level, smoothed=True)
+        report = ms.apply_filter("compute_multires_pyramid")
+        panels.append(Panel(f"Level {level}", f"waves from {100 * report['wavelength'][0] / np.linalg.norm(np.ptp(v, axis=0)):.1f} % of the box",
+                            *arrays(ms.current_mesh())))  # fmt: skip
+    return panels
+
+
+def top(v, f):
+    """One mesh, five settings of the equalizer, from smoothed to carved; and where the scales are."""
+    gains = (("smooth", (0, 0, 0, 0, 0.3, 1, 1, 1)), ("soft", (0, 0, 0.3, 0.5, 1, 1, 1, 1)), ("as scanned", (1,) * 8),
+             ("crisp", (0, 0.7, 2, 2, 1.5, 1, 1, 1)), ("carved", (0, 0.4, 3, 4, 2.5, 1, 1, 1)))  # fmt: skip
+    panels = []
+    for title, values in gains:
+        ms = document(v, f)
+        ms.apply_filter("apply_coord_multires_equalizer", **{f"gain_{i + 1}": g for i, g in enumerate(values)})
+        panels.append(Panel(title, "gains " + " ".join(f"{g:g}" for g in values), *arrays(ms.current_mesh())))
+    return panels
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    parser.add_argument("--only", nargs="*", help="names of filters, or top")
+    parser.add_argument("--output", type=pathlib.Path, default=FOLDER)
+    arguments = parser.parse_args()
+    load_plugins()
+    v, f = read(BUNNY)
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    for name in arguments.only or ["top", *PAIRS]:
+        panels = top(v, f) if name == "top" else levels(v, f) if PAIRS[name] is None else pair(name, v, f)
+        camera = rendering.three_quarter_camera(v, f)
+        if any(panel.edges for panel in panels):
+            camera = camera.closer(-0.35, 0.25, 0.5)  # the head, that edges can be told apart
+        sheet = rendering.contact_sheet(panels, camera, 400 if name == "top" else 360, close_ups=name == "top")
+        path = arguments.output / f"{'top' if name == 'top' else FUNCTIONS[name].replace('_', '-')}.webp"
+        sheet.save(path, "WEBP", quality=82, method=6)
+        print(f"{path.name}: {sheet.width} by {sheet.height}, {path.stat().st_size // 1000} KB", flush=True)
+
+
+if __name__ == "__main__":
+    main()
