@@ -1,6 +1,6 @@
 """MeshLab's own smoothing filters and ours side by side on one mesh: pictures, error maps, spectra and figures.
 
-    .venv/bin/python tools/compare.py MESH [--truth MESH | --noise SIGMA] [--output DIR]
+    .venv/bin/python tools/compare.py [MESH] [--truth MESH | --noise SIGMA] [--output DIR]
 
 Writes one self-contained page, DIR/comparison.html. With --truth the mesh without its noise is known; with --noise
 Gaussian noise along the normals, SIGMA in mean edge lengths, is added to MESH, which is then the truth. MeshLab's
@@ -21,7 +21,7 @@ import numpy as np
 import pymeshlab
 
 import report
-from measuring import (BUILD, DENOISE, EQUALIZER_GAINS, PYRAMID, SMOOTHERS, UNSHARP_MASKS, Setting, document,
+from measuring import (BUILD, BUNNY, DENOISE, EQUALIZER_GAINS, PYRAMID, SMOOTHERS, UNSHARP_MASKS, Setting, document,
                        edge_length, load_plugins, measures, read, referenced, run, same_faces, shape,
                        signed_distance, tangential, with_noise)  # fmt: skip
 
@@ -181,7 +181,7 @@ def read_case(mesh, truth, noise):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("mesh", type=pathlib.Path)
+    parser.add_argument("mesh", type=pathlib.Path, nargs="?", default=BUNNY, help="by default the Stanford bunny")
     known = parser.add_mutually_exclusive_group()
     known.add_argument("--truth", type=pathlib.Path, help="the mesh without its noise; best with the same faces")
     known.add_argument("--noise", type=float, help="add noise of this deviation, in mean edge lengths; MESH is the truth")

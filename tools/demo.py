@@ -15,9 +15,7 @@ import numpy as np
 import pymeshlab
 
 import rendering
-from measuring import BUILD, EQUALIZER_GAINS, PYRAMID, ROOT, arrays, load_plugins, table, with_noise
-
-BUNNY = pathlib.Path(pymeshlab.__file__).parent / "tests/sample_meshes/bunny.obj"
+from measuring import BUILD, BUNNY, EQUALIZER_GAINS, PYRAMID, ROOT, arrays, load_plugins, table, with_noise
 
 SECOND_SHEET = "denoise-attributes-adaptive.png"
 

@@ -14,6 +14,7 @@ import pyvista
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 BUILD = ROOT / "build/pymeshlab-2025.07"
+BUNNY = pathlib.Path(pymeshlab.__file__).parent / "tests/sample_meshes/bunny.obj"
 PYRAMID = "compute_multires_pyramid"
 DENOISE = "apply_coord_multires_denoise"
 EQUALIZER_GAINS = (0, 0, 1, 2.5, 2.5, 1, 1, 1)  # what demo and comparison show of the equalizer

@@ -13,9 +13,8 @@ import numpy as np
 import pymeshlab
 
 import rendering
-from demo import BUNNY
 from generate import FUNCTIONS
-from measuring import ROOT, arrays, document, load_plugins, read, with_noise
+from measuring import BUNNY, ROOT, arrays, document, load_plugins, read, with_noise
 from rendering import Panel
 
 FOLDER = ROOT / "docs/pictures"
