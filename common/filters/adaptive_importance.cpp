@@ -122,7 +122,7 @@ std::vector<double> attribute_details(const Layer& layer, const Hierarchy& h, Op
     const Attribute& a = attribute(layer, kind, message);
     Field f;
     f.width = a.width;
-    f.values = a.values;
+    f.values.assign(a.values.begin(), a.values.end());
     for (const double value : f.values)
         if (!std::isfinite(value)) throw InputError(std::string(message) + " that is a number everywhere");
     return field_details(h, to_places(h, f), op);

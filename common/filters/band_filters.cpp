@@ -91,8 +91,8 @@ Result detail_quality(const Layer& layer, const DetailOptions& options, Session&
     const std::vector<double> gains = band_gains(*pyramid, options.band, box_diagonal(layer), 0);
     session.progress.report(0.9, "Measuring the details");
     const Positions without = pyramid->synthesise(gains);
-    const std::vector<Vec3> normal =
-        options.signed_normal ? vertex_normals(layer.mesh.faces, layer.mesh.positions) : std::vector<Vec3>();
+    const Array<Vec3> normal =
+        options.signed_normal ? vertex_normals(layer.mesh.faces, layer.mesh.positions) : Array<Vec3>();
     std::vector<double> detail(without.size());
     for (std::size_t i = 0; i < detail.size(); ++i) {
         const Vec3 d = layer.mesh.positions[i] - without[i];

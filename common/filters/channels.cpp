@@ -77,7 +77,7 @@ Channels channels_of(const Layer& layer, std::size_t index, bool linear_light) {
     c.linear_light = linear_light && a.kind == AttributeKind::color;
     c.field.width = a.width;
     c.field.has_positions = false;
-    c.field.values = a.values;
+    c.field.values.assign(a.values.begin(), a.values.end());
     for (std::size_t i = 0; i < a.values.size(); ++i)
         if (!std::isfinite(a.values[i]))
             throw InputError(c.label + ": the value of vertex " + std::to_string(i / a.width) +

@@ -51,8 +51,8 @@ Positions by_normal_field(const Layer& layer, const DenoiseOptions& o, double gi
         options.noise = normal_noise(given, mean_edge_length(mesh.faces, mesh.positions));
     NormalFieldStats stats;
     const Progress smoothing = session.progress.part(0.1, 0.85);
-    const std::vector<Vec3> normals = denoise_normals(mesh.faces, start, graph, options, stats,
-                                                      [&](double f) { smoothing.report(f, "Denoising the normals"); });
+    const Array<Vec3> normals = denoise_normals(mesh.faces, start, graph, options, stats,
+                                                [&](double f) { smoothing.report(f, "Denoising the normals"); });
     session.progress.report(0.85, "Fitting the vertices");
     constexpr double rounding = 1e-4;  // of coordinates in single precision; there is nothing to fit then
     constexpr int steps = 8;           // more would follow the normals further and lose volume
@@ -73,7 +73,7 @@ void restore_volume(const Mesh& before, const std::vector<double>& weights, Posi
     const Vec3 apex = bounding_box(before.positions).center();
     const double wanted = surface(before.faces, before.positions, apex).volume;
     for (int step = 0; step < 3; ++step) {
-        std::vector<Vec3> normal = vertex_area_vectors(before.faces, after);
+        Array<Vec3> normal = vertex_area_vectors(before.faces, after);
         // A sixth of the sum is how the volume grows with the vertex.
         double gained = 0;
         for (std::size_t i = 0; i < after.size(); ++i) {

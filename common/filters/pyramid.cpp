@@ -73,7 +73,7 @@ std::vector<double> wavelengths(const Hierarchy& h, const Faces& faces) {
         LengthSum s;
         if (k + 1 == levels) {
             s.add(h.base, h.positions);
-        } else if (h.levels[k].even.vertices.empty() && h.levels[k].independent) {
+        } else if (h.levels[k].even.rows() == h.levels[k].coarse && h.levels[k].independent) {
             s.add(h.levels[k].even, h.positions);
             s.add(h.levels[k].odd, h.positions);
         } else {

@@ -127,9 +127,9 @@ inline bool faces_stay_good(Index v, Index u, const Ring& ring, const Positions&
 }
 
 /// The link condition for v -> u = ring(v)[j], and that nobody's ring becomes too small. `degree(w)` is the present
-/// size of a ring; `adjacent(u, w)` knows edges made since the rings were taken.
-template <class RingOf, class Degree, class Adjacent>
-bool link_allows(const Ring& ring, Index j, const RingOf& ring_of, const Degree& degree, const Adjacent& adjacent) {
+/// size of a ring; `joined(u, w)` knows edges made since the rings were taken.
+template <class RingOf, class Degree, class Joined>
+bool link_allows(const Ring& ring, Index j, const RingOf& ring_of, const Degree& degree, const Joined& joined) {
     const Index u = ring.vertex[j];
     const Ring target = ring_of(u);
     if (!target.regular()) return false;
@@ -146,7 +146,7 @@ bool link_allows(const Ring& ring, Index j, const RingOf& ring_of, const Degree&
     for (Index i = 0; i < ring.size; ++i) {
         const Index w = ring.vertex[i];
         if (w == u || w == wing[0] || w == wing[1]) continue;
-        if (target.find(w) >= 0 || adjacent(u, w)) return false;
+        if (target.find(w) >= 0 || joined(u, w)) return false;
     }
     return true;
 }

@@ -23,68 +23,61 @@ Positions normalised(const Positions& positions) {
     return out;
 }
 
-/// Places of a step's local vertices, and back.
-struct Numbering {
-    std::vector<Index> place, local;
-};
-
-Numbering number_step(const Step& step, const Numbering& coarser) {
-    const Index n = static_cast<Index>(step.parent.size()), even = n - step.odd;
-    Numbering numbering;
-    numbering.place.resize(n);
-    numbering.local.resize(n);
-    for (Index i = 0; i < n; ++i) {
-        const Index place = step.parent[i] < 0 ? coarser.place[step.rank[i]] : even + step.rank[i];
-        numbering.place[i] = place;
-        numbering.local[place] = i;
-    }
-    return numbering;
+/// Places of a step's local vertices: odd vertices come after all even ones.
+Array<Index> places_of(const Step& step, const Array<Index>& coarser) {
+    const Index n = step.rings.rows(), even = n - static_cast<Index>(step.parent.size());
+    Array<Index> place(n);
+    parallel_for(n, [&](Index i) { place[i] = step.code[i] >= 0 ? coarser[step.code[i]] : even + ~step.code[i]; });
+    return place;
 }
 
-std::vector<Index> slice(const std::vector<Index>& v, Index begin, Index end) {
-    return {v.begin() + begin, v.begin() + end};
+/// Local vertices with places in [begin, end), in local order. That order runs along the surface if the input's does,
+/// so rows in it find their neighbours near each other.
+Array<Index> rows_between(const Array<Index>& place, Index begin, Index end) {
+    Array<Index> rows(end - begin);
+    auto at = rows.begin();
+    for (std::size_t i = 0; i < place.size(); ++i)
+        if (place[i] >= begin && place[i] < end) *at++ = static_cast<Index>(i);
+    return rows;
 }
 
 /// Turns steps into levels of `sets_per_level` steps, numbered so that every level is a prefix.
 Hierarchy assemble(std::vector<Step> steps, const HierarchyOptions& options) {
     Hierarchy h;
     const int count = static_cast<int>(steps.size()) - 1;  // the last one is the base
-    std::vector<Numbering> numbering(steps.size());
-    const Index base = steps.back().rings.rows();
-    numbering.back().place.resize(base);
-    for (Index i = 0; i < base; ++i) numbering.back().place[i] = i;
-    numbering.back().local = numbering.back().place;
-    for (int s = count - 1; s >= 0; --s) numbering[s] = number_step(steps[s], numbering[s + 1]);
+    std::vector<Array<Index>> place(steps.size());
+    place.back() = steps.back().code;
+    for (int s = count - 1; s >= 0; --s) place[s] = places_of(steps[s], place[s + 1]);
 
-    h.order = numbering[0].local;
-    h.parent.assign(h.order.size(), -1);
-    for (int s = 0; s < count; ++s) {
-        const Numbering& at = numbering[s];
-        for (std::size_t i = 0; i < steps[s].parent.size(); ++i)
-            if (steps[s].parent[i] >= 0) h.parent[at.place[i]] = at.place[steps[s].parent[i]];
-    }
-    if (options.flaps)
-        for (Step& step : steps) find_flaps(step.rings);
-
-    h.size.push_back(steps[0].rings.rows());
+    const Index n = steps[0].rings.rows();
+    h.order.resize(n);
+    parallel_for(n, [&](Index i) { h.order[place[0][i]] = i; });
+    h.parent.assign(n, -1);
+    h.size.push_back(n);
     for (int first = 0; first < count; first += options.sets_per_level) {
         const int last = std::min(first + options.sets_per_level, count);
         Level level;
         level.fine = steps[first].rings.rows();
         level.coarse = steps[last].rings.rows();
         level.independent = last == first + 1;
-        level.even = renumbered(steps[first].rings, slice(numbering[first].local, 0, level.coarse),
-                                numbering[first].place, level.fine);
         for (int s = last - 1; s >= first; --s) {  // the vertices removed last are inserted first
-            const Index fine = steps[s].rings.rows(), even = fine - steps[s].odd;
-            append(level.odd,
-                   renumbered(steps[s].rings, slice(numbering[s].local, even, fine), numbering[s].place, even));
+            Step& step = steps[s];
+            const Index fine = step.rings.rows(), even = fine - static_cast<Index>(step.parent.size());
+            if (options.flaps) find_flaps(step.rings);
+            for (std::size_t i = 0; i < step.parent.size(); ++i)
+                h.parent[even + static_cast<Index>(i)] = place[s][step.parent[i]];
+            append(level.odd, renumbered(step.rings, rows_between(place[s], even, fine), place[s], even));
         }
         level.odd.first = level.coarse;
+        const Array<Index> rows = rows_between(place[first], 0, level.coarse);
+        level.even = renumbered(steps[first].rings, rows, place[first], level.fine);
+        level.even.vertices.resize(rows.size());
+        for (std::size_t r = 0; r < rows.size(); ++r) level.even.vertices[r] = place[first][rows[r]];
         h.size.push_back(level.coarse);
         h.levels.push_back(std::move(level));
-        for (int s = first; s < last; ++s) steps[s] = Step(), numbering[s] = Numbering();
+        for (int s = first; s < last; ++s) steps[s] = Step(), place[s] = Array<Index>();
     }
+    if (options.flaps) find_flaps(steps.back().rings);
     h.base = std::move(steps.back().rings);
     return h;
 }

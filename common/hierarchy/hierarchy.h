@@ -43,8 +43,8 @@ struct Level {
     Index fine = 0, coarse = 0;
     /// Row r: ring of the odd vertex coarse + r at the moment it is removed: all entries are smaller than coarse + r.
     Rings odd;
-    /// Rings in the mesh of `fine` vertices of the even vertices: all of them (row i = vertex i) or, with one vertex
-    /// per level, only those next to the odd vertex (Rings::vertices).
+    /// Rings in the mesh of `fine` vertices of the even vertices (Rings::vertices): all of them in order of the input,
+    /// which is kind to caches where places are not; or, with one vertex per level, only those next to the odd vertex.
     Rings even;
     /// True if all entries (and flaps) of odd rows are even, so that odd vertices can be predicted in any order.
     bool independent = true;
@@ -53,8 +53,8 @@ struct Level {
 /// The order in which half-edge collapses remove vertices, grouped into levels. Knows geometry, not signals: positions
 /// never move, so every level is a subset of the input's vertices.
 struct Hierarchy {
-    std::vector<Index> order;   ///< #V: order[place] = input vertex; level k is the prefix of size[k] places
-    std::vector<Index> parent;  ///< #V: place the vertex was collapsed into, smaller than its own; -1 in the base
+    Array<Index> order;         ///< #V: order[place] = input vertex; level k is the prefix of size[k] places
+    Array<Index> parent;        ///< #V: place the vertex was collapsed into, smaller than its own; -1 in the base
     std::vector<Index> size;    ///< #levels+1: vertices of level k, size[0] = #V, the last is the base
     std::vector<Level> levels;  ///< levels[k] leads from size[k] to size[k+1] vertices; 0 is the finest
     Rings base;                 ///< rings of the base's vertices (row i = place i)

@@ -15,48 +15,24 @@ using collapse::Directions;
 using collapse::Ring;
 using collapse::ring_of;
 
-/// Edges made by the collapses accepted so far in a step, as short lists per collapse target.
-class NewEdges {
-public:
-    explicit NewEdges(Index vertices) : head_(vertices, -1) {}
-    void add(Index u, Index w) {
-        nodes_.push_back({w, head_[u]});
-        head_[u] = static_cast<Index>(nodes_.size()) - 1;
-    }
-    bool has(Index u, Index w) const { return listed(u, w) || listed(w, u); }
-
-private:
-    struct Node {
-        Index vertex, next;
-    };
-    bool listed(Index u, Index w) const {
-        for (Index i = head_[u]; i >= 0; i = nodes_[i].next)
-            if (nodes_[i].vertex == w) return true;
-        return false;
-    }
-    std::vector<Index> head_;
-    std::vector<Node> nodes_;
-};
-
 /// The mesh being decimated, in local numbers.
 struct State {
     Rings rings;
     Positions positions;
-    std::vector<Quadric> quadric;
-    std::vector<double>
-        error;  ///< quadric[i].c once more: all that is read of a neighbour's, and small enough to stay near
+    Array<Quadric> quadric;
+    Array<double> error;  ///< quadric[i].c once more: all that is read of a neighbour's, and small enough to stay near
 };
 
 /// The cheapest target of every vertex that may go somewhere, and the sort key of its cost.
 struct Candidates {
-    std::vector<std::uint32_t> key;  ///< all ones: not a candidate
-    std::vector<Index> target;       ///< entry in the ring
+    Array<std::uint32_t> key;  ///< all ones: not a candidate
+    Array<Index> target;       ///< entry in the ring
 };
 
 constexpr std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
 
-std::vector<Quadric> vertex_quadrics(const Rings& rings, const Positions& positions, double boundary_weight) {
-    std::vector<Quadric> q(rings.rows());
+Array<Quadric> vertex_quadrics(const Rings& rings, const Positions& positions, double boundary_weight) {
+    Array<Quadric> q(rings.rows());
     parallel_for(rings.rows(),
                  [&](Index i) { q[i] = collapse::vertex_quadric(i, ring_of(rings, i), positions, boundary_weight); });
     return q;
@@ -88,106 +64,184 @@ Candidates rank_vertices(const State& s, double length_weight, int seed) {
 
 /// Picks the odd vertices of one step, cheapest first: takes a vertex, locks its ring, until none is left (Roy et al.
 /// 2003, section 3.1).
+///
+/// Parts of the vertices are picked at the same time: whatever a vertex needs to know lies in its ring and beside it,
+/// so those whose ring lies in their own part cannot meet another part's. The others are picked afterwards. The parts
+/// are ranges of indices whose number depends on the mesh alone; every other step they lie half a part further, so
+/// that their seams leave no trace in the levels.
 class Selection {
 public:
     Selection(const State& s, const HierarchyOptions& options)
         : s_(s), length_weight_(options.length_weight),
           share_(options.set_share), limits_{std::cos(options.normal_limit_degrees * 3.14159265358979323846 / 180)},
-          edges_(s.rings.rows()), degree_(s.rings.rows()), locked_(s.rings.rows(), 0), parent_(s.rings.rows(), -1) {
-        for (Index i = 0; i < s.rings.rows(); ++i) degree_[i] = s.rings.size(i);
+          degree_(s.rings.rows()), state_(s.rings.rows(), free), parent_(s.rings.rows(), -1) {
+        parallel_for(s.rings.rows(), [&](Index i) { degree_[i] = s.rings.size(i); });
     }
 
-    void run(const Candidates& candidates, Index most) {
-        const std::vector<Index> sorted = sorted_by_key(candidates.key, never);
-        const std::size_t last = static_cast<std::size_t>(std::ceil(share_ * static_cast<double>(sorted.size())));
-        for (std::size_t i = 0; i < sorted.size(); ++i) {
-            if (odd_ >= most || (i >= last && odd_ > 0)) break;
-            if (!locked_[sorted[i]]) try_vertex(sorted[i], candidates.target[sorted[i]]);
-        }
+    void run(const Candidates& candidates, Index most, bool shifted) {
+        const Index n = s_.rings.rows();
+        const std::uint32_t limit = share_ < 1 ? key_of_share(candidates.key) : never;
+        // Only large meshes are cut, where `most` is far away.
+        const Index parts = most > n / 2 ? std::clamp<Index>(n / least_part, 1, most_parts) : 1;
+        const Index width = (n - 1) / parts + 1, shift = parts > 1 && shifted ? width / 2 : 0;
+        std::vector<std::vector<Index>> seams(parts + 1);
+        std::vector<Index> odd(parts + 1, 0);
+        parallel_for(
+            parts + 1,
+            [&](Index part) {
+                const Index begin = std::max<Index>(0, part * width - shift);
+                const Index end = std::min(n, (part + 1) * width - shift);
+                odd[part] = pick(sorted_inside(begin, end, candidates, seams[part]), candidates, limit, most);
+            },
+            1);
+        for (const Index count : odd) odd_ += count;
+        std::vector<Index> rest;
+        for (const std::vector<Index>& seam : seams)
+            for (const Index v : seam)
+                if (state_[v] == free) rest.push_back(v);
+        odd_ += pick(sorted_by_key(std::move(rest), candidates.key), candidates, limit, most - odd_);
+        if (odd_ == 0 && limit != never)  // none of the share may go: whichever is the first to may
+            odd_ = pick(sorted_by_key(candidates.key, never), candidates, never, 1);
     }
 
     Index odd() const { return odd_; }
-    std::vector<Index>& parent() { return parent_; }
-    const std::vector<Index>& degree() const { return degree_; }  ///< of even vertices: after the step
+    const Array<Index>& parent() const { return parent_; }  ///< -1: even
+    const Array<Index>& degree() const { return degree_; }  ///< of even vertices: after the step
 
 private:
-    void try_vertex(Index v, Index best) {
+    enum : std::uint8_t { free = 0, locked = 1, target = 2 };
+    static constexpr Index least_part = 8192, most_parts = 16;
+
+    /// The candidates of a range in order of cost; those whose rings leave it go to `seam`.
+    std::vector<Index> sorted_inside(Index begin, Index end, const Candidates& c, std::vector<Index>& seam) const {
+        const bool whole = begin == 0 && end == s_.rings.rows();
+        std::vector<Index> inside;
+        for (Index v = begin; v < end; ++v) {
+            if (c.key[v] == never) continue;
+            const auto in = [&](Index w) { return w >= begin && w < end; };
+            const Index* const ring = s_.rings.begin(v);
+            (whole || std::all_of(ring, ring + s_.rings.size(v), in) ? inside : seam).push_back(v);
+        }
+        return sorted_by_key(std::move(inside), c.key);
+    }
+
+    /// The largest cost among the cheapest share of the candidates.
+    std::uint32_t key_of_share(Array<std::uint32_t> keys) const {
+        keys.erase(std::remove(keys.begin(), keys.end(), never), keys.end());
+        if (keys.empty()) return never;
+        const double wanted = std::ceil(share_ * static_cast<double>(keys.size()));
+        const auto at = keys.begin() + std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(wanted) - 1);
+        std::nth_element(keys.begin(), at, keys.end());
+        return *at;
+    }
+
+    /// Tries candidates in the order given, up to a cost and a number; gives the number taken.
+    Index pick(const std::vector<Index>& sorted, const Candidates& candidates, std::uint32_t limit, Index most) {
+        Index odd = 0;
+        std::vector<std::pair<double, Index>> others;
+        for (const Index v : sorted) {
+            if (odd >= most || candidates.key[v] > limit) break;
+            if (state_[v] == free && try_vertex(v, candidates.target[v], others)) ++odd;
+        }
+        return odd;
+    }
+
+    bool try_vertex(Index v, Index best, std::vector<std::pair<double, Index>>& others) {
         const Ring ring = ring_of(s_.rings, v);
         if (allowed(v, ring, best)) return accept(v, ring, best);
         // The cheapest target is barred; try the others in order of cost.
-        others_.clear();
+        others.clear();
         const Directions directions(ring);
         for (Index j = 0; j < ring.size; ++j) {
             if (j == best || !directions.allows(j)) continue;
             const Index u = ring.vertex[j];
-            others_.push_back(
+            others.push_back(
                 {collapse::cost(s_.quadric[v], s_.error[u], s_.positions[u] - s_.positions[v], length_weight_), j});
         }
-        std::sort(others_.begin(), others_.end());
-        for (const auto& [cost, j] : others_)
+        std::sort(others.begin(), others.end());
+        for (const auto& [cost, j] : others)
             if (allowed(v, ring, j)) return accept(v, ring, j);
+        return false;
     }
 
     bool allowed(Index v, const Ring& ring, Index j) const {
         return collapse::link_allows(
                    ring, j, [&](Index i) { return ring_of(s_.rings, i); }, [&](Index i) { return degree_[i]; },
-                   [&](Index u, Index w) { return edges_.has(u, w); }) &&
+                   [&](Index u, Index w) { return gained(u, w) || gained(w, u); }) &&
                collapse::faces_stay_good(v, ring.vertex[j], ring, s_.positions, limits_);
     }
 
-    void accept(Index v, const Ring& ring, Index j) {
-        const Index u = ring.vertex[j], before = ring.before(j), after = ring.after(j);
+    /// True if a vertex that went to u in this step had w in its ring.
+    bool gained(Index u, Index w) const {
+        if (!(state_[u] & target)) return false;
+        const Ring ring = ring_of(s_.rings, u);
+        for (Index j = 0; j < ring.size; ++j)
+            if (parent_[ring.vertex[j]] == u && ring_of(s_.rings, ring.vertex[j]).find(w) >= 0) return true;
+        return false;
+    }
+
+    bool accept(Index v, const Ring& ring, Index j) {
+        const Index u = ring.vertex[j];
         parent_[v] = u;
-        locked_[v] = 1;
-        ++odd_;
-        Index gained = ring.size - 2;
-        for (const Index w : {before, after})
-            if (w >= 0) --degree_[w], --gained;
-        degree_[u] += gained;
-        for (Index i = 0; i < ring.size; ++i) {
-            const Index w = ring.vertex[i];
-            locked_[w] = 1;
-            if (w != u && w != before && w != after) edges_.add(u, w);
-        }
+        state_[v] = locked;
+        Index gain = ring.size - 2;
+        for (const Index w : {ring.before(j), ring.after(j)})
+            if (w >= 0) --degree_[w], --gain;
+        degree_[u] += gain;
+        for (Index i = 0; i < ring.size; ++i) state_[ring.vertex[i]] |= locked;
+        state_[u] |= target;
+        return true;
     }
 
     const State& s_;
     double length_weight_, share_;
     collapse::FaceLimits limits_;
-    NewEdges edges_;
-    std::vector<Index> degree_;
-    std::vector<std::uint8_t> locked_;
-    std::vector<Index> parent_;
+    Array<Index> degree_;
+    Array<std::uint8_t> state_;
+    Array<Index> parent_;
     Index odd_ = 0;
-    std::vector<std::pair<double, Index>> others_;
 };
 
+/// Numbers even and odd vertices in their order.
+void number(const Array<Index>& parent, Index odd, Step& step) {
+    const Index n = static_cast<Index>(parent.size());
+    step.code.resize(n);
+    step.parent.resize(odd);
+    for (Index i = 0, evens = 0, odds = 0; i < n; ++i) {
+        step.code[i] = parent[i] < 0 ? evens++ : ~odds;
+        if (parent[i] >= 0) step.parent[odds++] = parent[i];
+    }
+}
+
 /// The state after a step: even vertices only, renumbered in their order.
-State next_state(const State& s, const Step& step, const std::vector<Index>& degree, const HierarchyOptions& options) {
-    const Index n = s.rings.rows(), m = n - step.odd;
+/// @param degree  sizes of the rings after the step
+State next_state(const State& s, const Step& step, const Array<Index>& degree, const HierarchyOptions& options) {
+    const Index n = s.rings.rows(), m = n - static_cast<Index>(step.parent.size());
+    const bool has_features = !s.rings.feature.empty();
     State t;
     t.rings.kind.resize(m);
     t.rings.offset.resize(m + 1);
     t.positions.resize(m);
     t.quadric.resize(m);
     t.error.resize(m);
-    const auto parent = [&](Index x) { return step.parent[x]; };
     for (Index i = 0; i < n; ++i)
-        if (parent(i) < 0) t.rings.offset[step.rank[i] + 1] = t.rings.offset[step.rank[i]] + degree[i];
+        if (step.code[i] >= 0) t.rings.offset[step.code[i] + 1] = t.rings.offset[step.code[i]] + degree[i];
     t.rings.neighbor.resize(t.rings.offset[m]);
-    if (!s.rings.feature.empty()) t.rings.feature.resize(t.rings.offset[m]);
+    if (has_features) t.rings.feature.resize(t.rings.offset[m]);
     const auto ring = [&](Index i) { return ring_of(s.rings, i); };
+    const auto parent = [&](Index x) { return step.code[x] >= 0 ? -1 : step.parent[~step.code[x]]; };
     parallel_for(n, [&](Index i) {
-        if (parent(i) >= 0) return;
-        const Index to = step.rank[i];
+        const Index to = step.code[i];
+        if (to < 0) return;
         t.rings.kind[to] = s.rings.kind[i];
         t.positions[to] = s.positions[i];
         Index at = t.rings.offset[to];
         const Ring old = ring(i);
         collapse::ring_after(i, old, ring, parent, [&](Index x, bool mark) {
-            if (!t.rings.feature.empty()) t.rings.feature[at] = mark;
-            t.rings.neighbor[at++] = step.rank[x];
+            if (has_features) t.rings.feature[at] = mark;
+            t.rings.neighbor[at++] = step.code[x];
         });
+        t.error[to] = 0;
         if (options.memoryless) return;
         Quadric q = s.quadric[i];
         for (Index j = 0; j < old.size; ++j) {
@@ -217,24 +271,16 @@ std::vector<Step> independent_sets(Rings rings, Positions positions, const Hiera
     for (;;) {
         const Index n = s.rings.rows();
         if (tick) tick(1 - n / whole);
+        Selection selection(s, options);
+        if (n > stop)
+            selection.run(rank_vertices(s, options.length_weight, options.seed), n - stop, steps.size() % 2 == 1);
         Step step;
-        std::vector<Index> degree;
-        if (n > stop) {
-            Selection selection(s, options);
-            selection.run(rank_vertices(s, options.length_weight, options.seed), n - stop);
-            step.odd = selection.odd();
-            step.parent = std::move(selection.parent());
-            degree = selection.degree();
-        }
-        if (step.odd == 0) {
-            steps.push_back({std::move(s.rings), std::vector<Index>(n, -1), {}, 0});
-            return steps;
-        }
-        step.rank.resize(n);
-        for (Index i = 0, even = 0, odd = 0; i < n; ++i) step.rank[i] = step.parent[i] < 0 ? even++ : odd++;
-        State t = next_state(s, step, degree, options);
+        number(selection.parent(), selection.odd(), step);
+        State t;
+        if (selection.odd() > 0) t = next_state(s, step, selection.degree(), options);
         step.rings = std::move(s.rings);
         steps.push_back(std::move(step));
+        if (selection.odd() == 0) return steps;
         s = std::move(t);
     }
 }

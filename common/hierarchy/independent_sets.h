@@ -9,10 +9,9 @@ namespace multires {
 /// One step of decimation: a maximal independent set of vertices collapsed at once. Vertices have local numbers,
 /// kept in the order of the input.
 struct Step {
-    Rings rings;                ///< before the step
-    std::vector<Index> parent;  ///< of an odd vertex; -1 for even ones
-    std::vector<Index> rank;    ///< number of a vertex among the even ones, or among the odd ones
-    Index odd = 0;              ///< how many are odd
+    Rings rings;          ///< before the step
+    Array<Index> code;    ///< number of an even vertex among the even ones, ~number of an odd one among the odd ones
+    Array<Index> parent;  ///< of the odd vertices
 };
 
 /// Decimates down to options.base_vertices; the last Step has no odd vertices and holds the base's rings.

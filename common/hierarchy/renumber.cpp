@@ -2,9 +2,11 @@
 
 #include "parallel/parallel.h"
 
+#include <algorithm>
+
 namespace multires {
 
-Rings renumbered(const Rings& rings, const std::vector<Index>& from, const std::vector<Index>& place, Index limit) {
+Rings renumbered(const Rings& rings, const Array<Index>& from, const Array<Index>& place, Index limit) {
     const Index rows = static_cast<Index>(from.size());
     Rings out;
     out.kind.resize(rows);
@@ -15,11 +17,11 @@ Rings renumbered(const Rings& rings, const std::vector<Index>& from, const std::
     if (!rings.feature.empty()) out.feature.resize(out.offset[rows]);
     parallel_for(rows, [&](Index r) {
         out.kind[r] = rings.kind[from[r]];
-        const Index source = rings.offset[from[r]], to = out.offset[r];
-        for (Index j = 0; j < rings.size(from[r]); ++j) {
-            out.neighbor[to + j] = place[rings.neighbor[source + j]];
-            if (!rings.feature.empty()) out.feature[to + j] = rings.feature[source + j];
-            if (rings.flap.empty()) continue;
+        const Index source = rings.offset[from[r]], size = rings.size(from[r]), to = out.offset[r];
+        for (Index j = 0; j < size; ++j) out.neighbor[to + j] = place[rings.neighbor[source + j]];
+        if (!rings.feature.empty()) std::copy_n(rings.feature.data() + source, size, out.feature.data() + to);
+        if (rings.flap.empty()) return;
+        for (Index j = 0; j < size; ++j) {
             const Index flap = rings.flap[source + j];
             out.flap[to + j] = flap >= 0 && place[flap] < limit ? place[flap] : -1;
         }

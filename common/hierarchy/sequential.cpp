@@ -183,7 +183,7 @@ private:
     void number() {
         const Index n = static_cast<Index>(rows_.size());
         h_.order.resize(n);
-        std::vector<Index> place(n);
+        Array<Index> place(n);
         Index at = 0;
         for (Index i = 0; i < n; ++i)
             if (alive_[i]) h_.order[at++] = i;
@@ -193,7 +193,7 @@ private:
         for (const Index v : removed_) h_.parent[place[v]] = place[parent_[v]];
 
         for (Level& level : h_.levels) {
-            std::vector<Index> rows(level.odd.rows());  // recorded in order of removal, wanted in order of insertion
+            Array<Index> rows(level.odd.rows());  // recorded in order of removal, wanted in order of insertion
             for (Index r = 0; r < level.odd.rows(); ++r) rows[r] = level.odd.rows() - 1 - r;
             level.odd = renumbered(level.odd, rows, place, level.fine);
             level.odd.first = level.coarse;
@@ -201,16 +201,13 @@ private:
             rows.clear();
             for (Index r = 0; r < level.even.rows(); ++r)
                 if (place[level.even.vertices[r]] < level.coarse) rows.push_back(r);
-            const std::vector<Index> vertex = std::move(level.even.vertices);
-            std::sort(rows.begin(), rows.end(), [&](Index a, Index b) { return place[vertex[a]] < place[vertex[b]]; });
-            level.even.vertices.clear();
+            const Array<Index> vertex = std::move(level.even.vertices);
             level.even = renumbered(level.even, rows, place, level.fine);
-            if (single())
-                for (const Index r : rows) level.even.vertices.push_back(place[vertex[r]]);
+            for (const Index r : rows) level.even.vertices.push_back(place[vertex[r]]);
         }
         Rings base;
         for (Index p = 0; p < left_; ++p) record(base, h_.order[p]);
-        std::vector<Index> all(left_);
+        Array<Index> all(left_);
         std::iota(all.begin(), all.end(), 0);
         h_.base = renumbered(base, all, place, n);
     }
@@ -226,7 +223,8 @@ private:
     bool features_;
     std::priority_queue<Entry> queue_;
     std::vector<std::pair<double, Index>> targets_;
-    std::vector<Index> removed_, even_vertex_;
+    std::vector<Index> removed_;
+    Array<Index> even_vertex_;
     Rings odd_, even_;
     Hierarchy h_;
 };

@@ -25,7 +25,7 @@ std::uint32_t spread(std::uint32_t x) {
 std::vector<Index> curve_order(const Faces& faces, const Positions& positions, const Box& box) {
     const Vec3 extent = (box.high - box.low).cwiseMax(1e-300);
     const double longest = extent.maxCoeff();
-    std::vector<std::uint32_t> key(faces.size());
+    Array<std::uint32_t> key(faces.size());
     parallel_for(static_cast<Index>(faces.size()), [&](Index f) {
         const Vec3 centre = (positions[faces[f][0]] + positions[faces[f][1]] + positions[faces[f][2]]) / 3;
         std::uint32_t code = 0;

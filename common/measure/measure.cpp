@@ -170,8 +170,8 @@ Change compare(const Faces& faces, const Positions& before, const Positions& aft
     return {sums.before.surface(apex), sums.after.surface(apex), displacement(before, after), sums.flipped};
 }
 
-std::vector<Vec3> face_normals(const Faces& faces, const Positions& positions) {
-    std::vector<Vec3> normals(faces.size());
+Array<Vec3> face_normals(const Faces& faces, const Positions& positions) {
+    Array<Vec3> normals(faces.size());
     parallel_for(static_cast<Index>(faces.size()), [&](Index f) {
         const Triangle t(faces[f], positions);
         normals[f] = t.is_degenerate() ? Vec3(Vec3::Zero()) : Vec3(t.cross / t.cross.norm());

@@ -61,7 +61,7 @@ Change compare(const Faces& faces, const Positions& before, const Positions& aft
 
 /// Unit normals by the right-hand rule; zero for faces that are degenerate as above.
 /// @returns  #F by 3
-std::vector<Vec3> face_normals(const Faces& faces, const Positions& positions);
+Array<Vec3> face_normals(const Faces& faces, const Positions& positions);
 
 /// Mean angle between the normals of corresponding faces, degrees; faces degenerate in either mesh do not count: the
 /// usual error measure of denoising.

@@ -2,8 +2,8 @@
 
 namespace multires {
 
-std::vector<Vec3> vertex_area_vectors(const Faces& faces, const Positions& positions) {
-    std::vector<Vec3> sum(positions.size(), Vec3::Zero());
+Array<Vec3> vertex_area_vectors(const Faces& faces, const Positions& positions) {
+    Array<Vec3> sum(positions.size(), Vec3::Zero());
     for (const Face& f : faces) {
         const Vec3& a = positions[f[0]];
         const Vec3 n = (positions[f[1]] - a).cross(positions[f[2]] - a);
@@ -12,8 +12,8 @@ std::vector<Vec3> vertex_area_vectors(const Faces& faces, const Positions& posit
     return sum;
 }
 
-std::vector<Vec3> vertex_normals(const Faces& faces, const Positions& positions) {
-    std::vector<Vec3> normal = vertex_area_vectors(faces, positions);
+Array<Vec3> vertex_normals(const Faces& faces, const Positions& positions) {
+    Array<Vec3> normal = vertex_area_vectors(faces, positions);
     for (Vec3& n : normal) {
         const double length = n.norm();
         if (length > 0) n /= length;

@@ -2,15 +2,13 @@
 
 #include "mesh/mesh.h"
 
-#include <vector>
-
 namespace multires {
 
 /// Sum of the area vectors of each vertex's faces, twice the area long; zero for vertices without faces.
 /// @returns  #V by 3, square mesh units
-std::vector<Vec3> vertex_area_vectors(const Faces& faces, const Positions& positions);
+Array<Vec3> vertex_area_vectors(const Faces& faces, const Positions& positions);
 
 /// The same as unit vectors, the usual vertex normals; zero where the sum is.
-std::vector<Vec3> vertex_normals(const Faces& faces, const Positions& positions);
+Array<Vec3> vertex_normals(const Faces& faces, const Positions& positions);
 
 }  // namespace multires

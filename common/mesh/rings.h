@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesh/array.h"
 #include "mesh/mesh.h"
 
 #include <cstdint>
@@ -22,12 +23,12 @@ enum class RingKind : std::uint8_t {
 /// where that is consistent; nothing but the sign of normals may depend on it (Möbius bands have rows too).
 /// All entries of a row differ. Closed rows have at least 3 entries, open ones at least 2.
 struct Rings {
-    std::vector<Index> offset{0};  ///< #rows+1
-    std::vector<Index> neighbor;   ///< #entries
-    std::vector<Index> flap;  ///< #entries or empty: vertex beyond the link edge (j, j+1); -1: none, or a feature edge
-    std::vector<std::uint8_t> feature;  ///< #entries or empty: 1 if the edge (vertex, neighbor) is a feature edge
-    std::vector<RingKind> kind;         ///< #rows
-    std::vector<Index> vertices;  ///< #rows or empty: vertex of each row; empty if row r belongs to vertex first+r
+    Array<Index> offset{0};  ///< #rows+1
+    Array<Index> neighbor;   ///< #entries
+    Array<Index> flap;       ///< #entries or empty: vertex beyond the link edge (j, j+1); -1: none, or a feature edge
+    Array<std::uint8_t> feature;  ///< #entries or empty: 1 if the edge (vertex, neighbor) is a feature edge
+    Array<RingKind> kind;         ///< #rows
+    Array<Index> vertices;        ///< #rows or empty: vertex of each row; empty if row r belongs to vertex first+r
     Index first = 0;              ///< see `vertices`
 
     Index rows() const { return static_cast<Index>(kind.size()); }

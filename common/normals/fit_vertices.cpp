@@ -26,8 +26,8 @@ Vec3 within_surface(const Vec3& to_middle, const Vec3& normal_sum) {
 
 }  // namespace
 
-Positions fit_vertices(const Faces& faces, const Positions& positions, const Incidence& at,
-                       const std::vector<Vec3>& normals, int steps) {
+Positions fit_vertices(const Faces& faces, const Positions& positions, const Incidence& at, const Array<Vec3>& normals,
+                       int steps) {
     const Index vertices = static_cast<Index>(positions.size()), count = static_cast<Index>(faces.size());
     Positions p = positions, next(positions.size()), centroid(faces.size());
     std::vector<std::uint8_t> crowded(faces.size());

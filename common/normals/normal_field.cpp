@@ -26,7 +26,7 @@ constexpr double significant = 6;
 /// Averaging steps that make an energy local.
 constexpr int energy_steps = 4;
 
-using Normals = std::vector<Vec3>;
+using Normals = Array<Vec3>;
 
 struct Geometry {
     Normals normal;
@@ -170,9 +170,9 @@ void add_detail(const FaceGraph& graph, const std::vector<double>& area, const N
 
 }  // namespace
 
-std::vector<Vec3> denoise_normals(const Faces& faces, const Positions& positions, const FaceGraph& graph,
-                                  const NormalFieldOptions& options, NormalFieldStats& stats,
-                                  const std::function<void(double)>& tick) {
+Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, const FaceGraph& graph,
+                            const NormalFieldOptions& options, NormalFieldStats& stats,
+                            const std::function<void(double)>& tick) {
     const Geometry g = geometry_of(faces, positions);
     stats = NormalFieldStats();
     stats.noise = median_difference(graph, g.normal);

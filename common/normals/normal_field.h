@@ -33,15 +33,15 @@ struct NormalFieldStats {
 
 /// Smoothed unit normals of all faces; degenerate faces (area 0) have a zero normal.
 /// @param tick  called with the fraction done; may throw to stop
-std::vector<Vec3> denoise_normals(const Faces& faces, const Positions& positions, const FaceGraph& graph,
-                                  const NormalFieldOptions& options, NormalFieldStats& stats,
-                                  const std::function<void(double)>& tick);
+Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, const FaceGraph& graph,
+                            const NormalFieldOptions& options, NormalFieldStats& stats,
+                            const std::function<void(double)>& tick);
 
 /// Moves vertices so that faces get the given normals: each goes to the mean of its projections on the planes through
 /// its faces' centroids (Sun et al. 2007, eq. 8), `steps` times. Vertices of faces that are folded or nearly degenerate
 /// also move within the surface, towards the middle of their ring, until they are not.
 /// @param normals  #F; zero normals have no say
-Positions fit_vertices(const Faces& faces, const Positions& positions, const Incidence& at,
-                       const std::vector<Vec3>& normals, int steps);
+Positions fit_vertices(const Faces& faces, const Positions& positions, const Incidence& at, const Array<Vec3>& normals,
+                       int steps);
 
 }  // namespace multires

@@ -62,8 +62,8 @@ std::vector<Index> for_rows(Index rows, const RelaxationOptions& options, const 
     return all;
 }
 
-Positions relaxed(const Rings& rings, const std::vector<Index>& offset, const std::vector<Index>& column,
-                  const std::vector<double>& weight, const std::vector<Index>& kept, const Positions& f) {
+Positions relaxed(const Rings& rings, const Array<Index>& offset, const Array<Index>& column,
+                  const Array<double>& weight, const std::vector<Index>& kept, const Positions& f) {
     Positions result(f);
     parallel_for(rings.rows(), [&](Index r) {
         Vec3 sum = Vec3::Zero();

@@ -72,16 +72,16 @@ constexpr bool uses_flaps(Operator op) { return op == Operator::second_differenc
 
 /// Weights on the entries of some Rings.
 struct RingWeights {
-    std::vector<double> weight;  ///< #entries, aligned with Rings::neighbor; zeros in the rows kept
-    std::vector<Index> kept;     ///< ascending: the rows whose vertex keeps its value
+    Array<double> weight;     ///< #entries, aligned with Rings::neighbor; zeros in the rows kept
+    std::vector<Index> kept;  ///< ascending: the rows whose vertex keeps its value
 };
 
 /// Sparse rows with columns of their own, aligned with the rows of some Rings.
 struct Rows {
-    std::vector<Index> offset{0};  ///< #rows+1
-    std::vector<Index> column;     ///< #entries: vertices, all different within a row
-    std::vector<double> weight;    ///< #entries; zeros in the rows kept
-    std::vector<Index> kept;       ///< ascending: the rows whose vertex keeps its value
+    Array<Index> offset{0};   ///< #rows+1
+    Array<Index> column;      ///< #entries: vertices, all different within a row
+    Array<double> weight;     ///< #entries; zeros in the rows kept
+    std::vector<Index> kept;  ///< ascending: the rows whose vertex keeps its value
 };
 
 /// The weights of an operator whose stencil is the 1-ring.

@@ -15,9 +15,9 @@ struct Stencil {
     Rows rows;
     bool own = false;
 
-    const std::vector<Index>& offset() const { return own ? rows.offset : rings->offset; }
-    const std::vector<Index>& column() const { return own ? rows.column : rings->neighbor; }
-    const std::vector<double>& weight() const { return own ? rows.weight : ring.weight; }
+    const Array<Index>& offset() const { return own ? rows.offset : rings->offset; }
+    const Array<Index>& column() const { return own ? rows.column : rings->neighbor; }
+    const Array<double>& weight() const { return own ? rows.weight : ring.weight; }
     const std::vector<Index>& kept() const { return own ? rows.kept : ring.kept; }
 };
 

@@ -10,13 +10,13 @@ namespace multires {
 /// Channels at vertices, interleaved: row r, channel c is values[r * width + c].
 struct Field {
     int width = 3;
-    std::vector<double> values;  ///< #rows by width, row-major
+    Array<double> values;  ///< #rows by width, row-major
     /// True: channels 0..2 are the positions, and schemes with local frames turn their details with the surface.
     /// False: every channel is a function on the surface (a colour, a quality), for which there is nothing to turn.
     bool has_positions = true;
 
     Field() = default;
-    Field(Index rows, int w) : width(w), values(static_cast<std::size_t>(rows) * w) {}
+    Field(Index rows, int w) : width(w), values(static_cast<std::size_t>(rows) * w, 0.0) {}
     Index rows() const { return static_cast<Index>(values.size() / width); }
     double* row(Index r) { return values.data() + static_cast<std::size_t>(r) * width; }
     const double* row(Index r) const { return values.data() + static_cast<std::size_t>(r) * width; }

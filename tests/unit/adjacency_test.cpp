@@ -132,7 +132,7 @@ TEST(Adjacency, RingsFollowConsistentOrientation) {
 
 namespace {
 
-std::vector<RingKind> kinds(const Mesh& mesh) { return vertex_rings(mesh).kind; }
+Array<RingKind> kinds(const Mesh& mesh) { return vertex_rings(mesh).kind; }
 
 Mesh with_faces(Index vertices, Faces faces) {
     Mesh mesh;
@@ -148,7 +148,7 @@ constexpr RingKind closed = RingKind::closed, open = RingKind::open, irregular =
 }  // namespace
 
 TEST(Adjacency, ClassifiesLiteralMeshes) {
-    using Kinds = std::vector<RingKind>;
+    using Kinds = Array<RingKind>;
     EXPECT_EQ(kinds(shapes::triangle()), (Kinds{open, open, open}));
     EXPECT_EQ(kinds(shapes::tetrahedron()), (Kinds{closed, closed, closed, closed}));
     EXPECT_EQ(kinds(shapes::double_sided_triangle()), (Kinds{irregular, irregular, irregular}));
@@ -172,14 +172,14 @@ TEST(Adjacency, ClassifiesLiteralMeshes) {
 }
 
 TEST(Adjacency, OnlyTheWeldedVertexOfABowtieIsIrregular) {
-    const std::vector<RingKind> kind = kinds(shapes::bowtie());
+    const Array<RingKind> kind = kinds(shapes::bowtie());
     EXPECT_EQ(kind[0], irregular);
     EXPECT_EQ(std::count(kind.begin(), kind.end(), closed), static_cast<std::ptrdiff_t>(kind.size()) - 1);
 }
 
 TEST(Adjacency, OnlyTheEndsOfAFinAreIrregular) {
     const Mesh mesh = shapes::three_faces_on_an_edge();
-    const std::vector<RingKind> kind = kinds(mesh);
+    const Array<RingKind> kind = kinds(mesh);
     for (std::size_t v = 0; v < kind.size(); ++v) {
         const bool on_edge = static_cast<Index>(v) == mesh.faces[0][0] || static_cast<Index>(v) == mesh.faces[0][1];
         EXPECT_EQ(kind[v], on_edge ? irregular : v + 1 == kind.size() ? open : closed) << v;
@@ -190,7 +190,7 @@ TEST(Adjacency, BandsAreRegularWhateverTheirOrientation) {
     for (const Mesh& mesh : {shapes::moebius_band(), shapes::inconsistent_orientation()})
         for (const RingKind kind : kinds(mesh)) EXPECT_TRUE(kind == closed || kind == open);
     // Every boundary vertex of a band of 24 by 4 quadrilaterals: 48.
-    const std::vector<RingKind> kind = kinds(shapes::moebius_band());
+    const Array<RingKind> kind = kinds(shapes::moebius_band());
     EXPECT_EQ(std::count(kind.begin(), kind.end(), open), 48);
 }
 

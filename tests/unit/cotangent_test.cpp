@@ -37,15 +37,15 @@ TEST(Cotangent, DegenerateTrianglesAreLeftOut) {
     std::vector<double> expected{1.0 + 2.0, 0.5, 3.0, 1.0 / 3 + 1.0 / 3, 3.0 + 1.0};
     double sum = 0;
     for (const double w : expected) sum += w;
-    const std::vector<double> w = star.weights(Operator::cotangent);
+    const Array<double> w = star.weights(Operator::cotangent);
     for (int k = 0; k < 5; ++k) EXPECT_NEAR(w[k], expected[k] / sum, 1e-15) << k;
 }
 
 TEST(Cotangent, ClampedIsBoundedOnSlivers) {
     const double height = 1e-7;
     const ClosedStar star({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, -height, 0}, {0, -1, 0}, {0.5, -height, 0}});
-    const auto largest = [](const std::vector<double>& w) { return *std::max_element(w.begin(), w.end()); };
-    const auto least = [](const std::vector<double>& w) { return *std::min_element(w.begin(), w.end()); };
+    const auto largest = [](const Array<double>& w) { return *std::max_element(w.begin(), w.end()); };
+    const auto least = [](const Array<double>& w) { return *std::min_element(w.begin(), w.end()); };
     EXPECT_LT(least(star.weights(Operator::cotangent)), -0.1);
     EXPECT_EQ(least(star.weights(Operator::cotangent_clamped)), 0);
     EXPECT_LE(largest(star.weights(Operator::cotangent_clamped)), 1);
@@ -61,7 +61,7 @@ TEST(Cotangent, DelaunayEqualsPlainOnDelaunayMeshes) {
 TEST(Cotangent, DelaunayKeepsTheSpokesToTheConvexHullUnderInversion) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         const ClosedStar star(planar_star(4 + seed % 20, seed));
-        const std::vector<double> w = star.weights(Operator::cotangent_delaunay);
+        const Array<double> w = star.weights(Operator::cotangent_delaunay);
         const auto inverted = [&](std::size_t k) {
             return Vec3(star.positions[k + 1] / star.positions[k + 1].squaredNorm());
         };
@@ -87,12 +87,12 @@ TEST(Cotangent, DelaunayKeepsTheSpokesToTheConvexHullUnderInversion) {
 TEST(Cotangent, DelaunayInterpolatesOnAnEdgeAndSeesThroughHiddenNeighbours) {
     // The vertex lies on the edge between neighbours 1 and 2, nearer to 1.
     const ClosedStar on_edge({{0, 0, 0}, {1, 0, 0}, {-3, 0, 0}, {0, -1, 0}});
-    EXPECT_EQ(on_edge.weights(Operator::cotangent_delaunay), (std::vector<double>{0.75, 0.25, 0}));
+    EXPECT_EQ(on_edge.weights(Operator::cotangent_delaunay), (Array<double>{0.75, 0.25, 0}));
     // Neighbour 2 lies behind neighbour 3, or the other way round.
     for (const int behind : {1, 2}) {
         Positions p{{0, 0, 0}, {0, -1, 0}, {1, 0, 0}, {1, 0, 0}, {0, 3, 0}, {-1, 0, 0}};
         p[1 + behind].x() = 2;
-        const std::vector<double> w = ClosedStar(p).weights(Operator::cotangent_delaunay);
+        const Array<double> w = ClosedStar(p).weights(Operator::cotangent_delaunay);
         EXPECT_EQ(w[behind], 0);
         Vec3 mean = Vec3::Zero();
         for (int k = 0; k < 5; ++k) mean += w[k] * p[k + 1];
@@ -107,8 +107,8 @@ TEST(Cotangent, CoincidentNeighboursShareTheWeightOfOne) {
             Positions doubled(star.positions);
             doubled.insert(doubled.begin() + static_cast<std::ptrdiff_t>(twin), doubled[twin]);
             for (const Operator op : {Operator::cotangent, Operator::cotangent_delaunay}) {
-                const std::vector<double> one = star.weights(op);
-                std::vector<double> two = ClosedStar(doubled).weights(op);
+                const Array<double> one = star.weights(op);
+                Array<double> two = ClosedStar(doubled).weights(op);
                 two[twin - 1] += two[twin];
                 two.erase(two.begin() + static_cast<std::ptrdiff_t>(twin));
                 for (std::size_t k = 0; k < 8; ++k) EXPECT_NEAR(two[k], one[k], 1e-12 * (1 + std::abs(one[k]))) << seed;
@@ -120,7 +120,7 @@ TEST(Cotangent, CoincidentNeighboursShareTheWeightOfOne) {
 TEST(Cotangent, NeighbourOnTheVertexIsLeftOut) {
     const ClosedStar star({{0, 0, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}});
     for (const Operator op : {Operator::cotangent, Operator::cotangent_clamped, Operator::cotangent_delaunay}) {
-        EXPECT_EQ(star.weights(op), (std::vector<double>{0, 0.25, 0.5, 0.25}));
+        EXPECT_EQ(star.weights(op), (Array<double>{0, 0.25, 0.5, 0.25}));
     }
 }
 
@@ -130,7 +130,7 @@ TEST(Cotangent, DegenerateIsRelativeToTheEdges) {
         for (const double height : {1e-12, 1e-8}) {
             Positions p{{0, 0, 0}, {1, -height, 0}, {0, 1, 0}, {-1, -height, 0}};
             for (Vec3& q : p) q *= scale;
-            const std::vector<double> w = ClosedStar(p).weights(Operator::cotangent);
+            const Array<double> w = ClosedStar(p).weights(Operator::cotangent);
             if (height < 1e-10) {  // left out: half a star, as above
                 for (int k = 0; k < 3; ++k) EXPECT_NEAR(w[k], k == 1 ? 0.5 : 0.25, 1e-11);
             } else {  // in: interpolation along the edge

@@ -116,7 +116,7 @@ TEST(Measure, NormalAngleIsTheTurn) {
 
 TEST(Measure, NormalsOfDegenerateFacesAreZero) {
     const Mesh mesh = shapes::collinear_faces();  // coordinates are multiples of 1/16: areas are exact
-    const std::vector<Vec3> normals = face_normals(mesh.faces, mesh.positions);
+    const Array<Vec3> normals = face_normals(mesh.faces, mesh.positions);
     int zero = 0;
     for (std::size_t f = 0; f < normals.size(); ++f) {
         const Vec3 &a = mesh.positions[mesh.faces[f][0]], &b = mesh.positions[mesh.faces[f][1]],

@@ -12,17 +12,17 @@ namespace {
 
 Incidence incidence_of(const Mesh& mesh) { return vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size())); }
 
-std::vector<Vec3> denoised_normals(const Mesh& mesh, NormalFieldStats& stats, const NormalFieldOptions& options = {}) {
+Array<Vec3> denoised_normals(const Mesh& mesh, NormalFieldStats& stats, const NormalFieldOptions& options = {}) {
     return denoise_normals(mesh.faces, mesh.positions, face_graph(mesh.faces, incidence_of(mesh)), options, stats,
                            [](double) {});
 }
 
-Positions fitted(const Mesh& mesh, const std::vector<Vec3>& normals, int steps = 8) {
+Positions fitted(const Mesh& mesh, const Array<Vec3>& normals, int steps = 8) {
     return fit_vertices(mesh.faces, mesh.positions, incidence_of(mesh), normals, steps);
 }
 
 /// Mean angle between two fields of unit normals, degrees.
-double mean_angle(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+double mean_angle(const Array<Vec3>& a, const Array<Vec3>& b) {
     double sum = 0;
     for (std::size_t f = 0; f < a.size(); ++f) sum += std::acos(std::clamp(a[f].dot(b[f]), -1.0, 1.0));
     return sum / static_cast<double>(a.size()) * 180 / std::acos(-1.0);
@@ -158,13 +158,13 @@ TEST(FitVertices, SurfacesThatFitTheirNormalsStay) {
 
 TEST(FitVertices, NormalsOfZeroHaveNoSay) {
     const Mesh mesh = noisy(shapes::irregular_sphere(300), 0.2);
-    EXPECT_EQ(fitted(mesh, std::vector<Vec3>(mesh.faces.size(), Vec3::Zero())), mesh.positions);
+    EXPECT_EQ(fitted(mesh, Array<Vec3>(mesh.faces.size(), Vec3::Zero())), mesh.positions);
 }
 
 TEST(FitVertices, NoisyPlaneBecomesFlatAndMovesAlongItsNormalOnly) {
     const Mesh plane = shapes::plane(30, {0.1, 0, 1});  // no triangle is so thin that it would slide
     const Mesh mesh = noisy(plane, 0.1);
-    const Positions p = fitted(mesh, std::vector<Vec3>(mesh.faces.size(), Vec3(0, 0, 1)));
+    const Positions p = fitted(mesh, Array<Vec3>(mesh.faces.size(), Vec3(0, 0, 1)));
     double before = 0, after = 0, mean = 0, mean_before = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
         EXPECT_EQ(p[i].head<2>(), plane.positions[i].head<2>());

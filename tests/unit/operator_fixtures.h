@@ -30,7 +30,7 @@ struct ClosedStar {
         for (Index v = 1; v < static_cast<Index>(positions.size()); ++v) rings.neighbor.push_back(v);
         rings.kind = {RingKind::closed};
     }
-    std::vector<double> weights(Operator op) const { return ring_weights(rings, positions, with(op)).weight; }
+    Array<double> weights(Operator op) const { return ring_weights(rings, positions, with(op)).weight; }
 
     Positions positions;
     Rings rings;

@@ -85,7 +85,7 @@ TEST(RadixSort, SortsStablyAndLeavesOut) {
     constexpr std::uint32_t out = std::numeric_limits<std::uint32_t>::max();
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         shapes::Random random(seed);
-        std::vector<std::uint32_t> key(random.bits() % 3000);
+        Array<std::uint32_t> key(random.bits() % 3000);
         // Few different keys, keys that differ in one of the three digits only, and any keys.
         const int shift = static_cast<int>(seed % 4) * 8;
         for (auto& k : key)

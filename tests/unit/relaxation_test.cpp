@@ -153,12 +153,12 @@ TEST(Relaxation, CreasesAndCorners) {
     for (const Operator op :
          {Operator::umbrella, Operator::cotangent, Operator::cotangent_clamped, Operator::cotangent_delaunay}) {
         star.rings.feature = {1, 0, 1, 0};
-        EXPECT_EQ(star.weights(op), (std::vector<double>{2.0 / 3, 0, 1.0 / 3, 0}));
-        for (const std::vector<std::uint8_t>& corner : {std::vector<std::uint8_t>{1, 0, 0, 0}, {1, 1, 1, 0}}) {
+        EXPECT_EQ(star.weights(op), (Array<double>{2.0 / 3, 0, 1.0 / 3, 0}));
+        for (const Array<std::uint8_t>& corner : {Array<std::uint8_t>{1, 0, 0, 0}, {1, 1, 1, 0}}) {
             star.rings.feature = corner;
             const RingWeights kept = ring_weights(star.rings, star.positions, with(op));
             EXPECT_EQ(kept.kept, std::vector<Index>{0});
-            EXPECT_EQ(kept.weight, std::vector<double>(4, 0));
+            EXPECT_EQ(kept.weight, Array<double>(4, 0));
         }
         star.rings.feature = {0, 0, 0, 0};
         EXPECT_TRUE(ring_weights(star.rings, star.positions, with(op)).kept.empty());
@@ -172,7 +172,7 @@ TEST(Relaxation, CreaseMeetingTheBoundaryIsKept) {
     star.rings.kind = {RingKind::open};
     for (const Operator op : {Operator::cotangent, Operator::second_difference}) {
         star.rings.feature = {1, 0, 1};  // along the boundary
-        EXPECT_EQ(star.weights(op), (std::vector<double>{0.5, 0, 0.5}));
+        EXPECT_EQ(star.weights(op), (Array<double>{0.5, 0, 0.5}));
         star.rings.feature = {0, 1, 0};
         EXPECT_EQ(ring_weights(star.rings, star.positions, with(op)).kept, std::vector<Index>{0});
     }
@@ -184,9 +184,9 @@ TEST(Relaxation, StarsOfDegenerateTrianglesFallBackOnLengths) {
     for (const Operator op : {Operator::cotangent, Operator::cotangent_clamped, Operator::cotangent_delaunay,
                               Operator::second_difference}) {
         const std::vector<double> inverse{4.0 / 7, 2.0 / 7, 1.0 / 7};
-        const std::vector<double> w = line.weights(op);
+        const Array<double> w = line.weights(op);
         for (int k = 0; k < 3; ++k) EXPECT_NEAR(w[k], inverse[k], 1e-15);
-        EXPECT_EQ(point.weights(op), (std::vector<double>{0.5, 0.5, 0}));
+        EXPECT_EQ(point.weights(op), (Array<double>{0.5, 0.5, 0}));
     }
 }
 

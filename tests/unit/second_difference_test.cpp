@@ -165,7 +165,7 @@ TEST(SecondDifference, FeatureEdgesAreLeftOut) {
     // vertex keeps its place; with it the roof is pulled down.
     ClosedStar star({{0, 0, 0}, {1, 0, 0}, {0.4, 1, -1}, {-0.6, 1, -1}, {-1, 0, 0}, {-0.3, -1, -1}, {0.5, -1, -1}});
     const auto offset = [&] {
-        const std::vector<double> w = star.weights(Operator::second_difference);
+        const Array<double> w = star.weights(Operator::second_difference);
         Vec3 sum = Vec3::Zero();
         for (int k = 0; k < 6; ++k) sum += w[k] * star.positions[k + 1];
         return sum;
@@ -187,7 +187,7 @@ TEST(SecondDifference, EdgesOfDegenerateTrianglesAreLeftOut) {
                            {-1, 0, 0},
                            {-0.3, -1, -1},
                            {0.5, -1, -1}});
-    const std::vector<double> w = star.weights(Operator::second_difference);
+    const Array<double> w = star.weights(Operator::second_difference);
     Vec3 sum = Vec3::Zero();
     for (int k = 0; k < 8; ++k) sum += w[k] * star.positions[k + 1];
     EXPECT_LT(sum.norm(), 1e-14);

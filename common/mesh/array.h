@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <new>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace multires {
+
+namespace array_detail {
+/// Memory for an array. Blocks of many megabytes are aligned to, and asked to be made of, huge pages.
+void* allocate(std::size_t bytes);  ///< throws std::bad_alloc
+void release(void* memory, std::size_t bytes) noexcept;
+}  // namespace array_detail
+
+/// Allocator of Array: what resize() adds is not set to zero, and large blocks lie in huge pages. A pyramid is a few
+/// hundred large arrays that are written once; zeroing them and faulting them in page by page cost a fifth of its time.
+template <class T>
+struct ArrayAllocator {
+    using value_type = T;
+
+    ArrayAllocator() = default;
+    template <class U>
+    ArrayAllocator(const ArrayAllocator<U>&) noexcept {}
+
+    T* allocate(std::size_t n) {
+        if (n > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_array_new_length();
+        return static_cast<T*>(array_detail::allocate(n * sizeof(T)));
+    }
+    void deallocate(T* p, std::size_t n) noexcept { array_detail::release(p, n * sizeof(T)); }
+
+    template <class U>
+    void construct(U* p) noexcept(std::is_nothrow_default_constructible_v<U>) {
+        ::new (static_cast<void*>(p)) U;  // no parentheses: numbers stay as they are
+    }
+    template <class U, class... A>
+    void construct(U* p, A&&... a) {
+        ::new (static_cast<void*>(p)) U(std::forward<A>(a)...);
+    }
+    bool operator==(const ArrayAllocator&) const { return true; }
+    bool operator!=(const ArrayAllocator&) const { return false; }
+};
+
+/// std::vector for large arrays of plain numbers: Array<T> a(n) and a.resize(n) leave new elements unset, a(n, value)
+/// and assign() set them.
+template <class T>
+using Array = std::vector<T, ArrayAllocator<T>>;
+
+}  // namespace multires
