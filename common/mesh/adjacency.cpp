@@ -157,6 +157,14 @@ Index beside(const Rings& rings, Index a, Index b, Index not_this) {
     return before == not_this ? after : before;
 }
 
+/// The flap of the link from entry j of row i to the next, -1 if there is none.
+Index flap_of(const Rings& rings, Index i, Index j) {
+    const Index d = rings.size(i);
+    if (j + 1 == d && rings.kind[i] != RingKind::closed) return -1;
+    const Index a = rings.begin(i)[j], b = rings.begin(i)[j + 1 < d ? j + 1 : 0];
+    return rings.size(a) > 0 ? beside(rings, a, b, i) : beside(rings, b, a, i);
+}
+
 }  // namespace
 
 Rings vertex_rings(const Mesh& mesh) {
@@ -187,15 +195,31 @@ Rings vertex_rings(const Mesh& mesh) {
 }
 
 void find_flaps(Rings& rings) {
-    rings.flap.assign(rings.neighbor.size(), -1);
+    rings.flap.resize(rings.neighbor.size());
+    const bool features = !rings.feature.empty();
     parallel_for(rings.rows(), [&](Index i) {
         const Index d = rings.size(i);
-        const Index* r = rings.begin(i);
-        const Index links = rings.kind[i] == RingKind::closed ? d : d - 1;
-        for (Index j = 0; j < links; ++j) {
-            const Index a = r[j], b = r[j + 1 < d ? j + 1 : 0];
-            const Index flap = rings.size(a) > 0 ? beside(rings, a, b, i) : beside(rings, b, a, i);
-            rings.flap[rings.offset[i] + j] = flap;
+        const Index* const r = rings.begin(i);
+        Index* const flap = rings.flap.data() + rings.offset[i];
+        if (rings.kind[i] != RingKind::closed || features) {
+            for (Index j = 0; j < d; ++j) flap[j] = flap_of(rings, i, j);
+            return;
+        }
+        // In the ring of neighbour j, i stands between j-1 and j+1, and beyond those are the flaps of both links: one
+        // search for two.
+        for (Index j = d % 2; j < d + d % 2; j += 2) {
+            const Index at_j = j < d ? j : 0, before = at_j > 0 ? at_j - 1 : d - 1, after = at_j + 1 < d ? at_j + 1 : 0;
+            const Index a = r[at_j], n = rings.size(a), at = find_in(rings, a, i);
+            if (at < 0 || rings.kind[a] != RingKind::closed) {
+                flap[before] = flap_of(rings, i, before);
+                flap[at_j] = flap_of(rings, i, at_j);
+                continue;
+            }
+            const Index* const around = rings.begin(a);
+            const auto entry = [&](Index k) { return around[k < 0 ? k + n : k < n ? k : k - n]; };
+            const bool along = entry(at + 1) == r[after];
+            flap[at_j] = entry(along ? at + 2 : at - 2);
+            flap[before] = entry(along ? at - 2 : at + 2);
         }
     });
 }

@@ -25,8 +25,8 @@ struct Flaps {
 };
 
 /// Least squares of the second-order differences over the spokes that are no features (Guskov 1999, eq. 3), and over
-/// the link edges too if flaps are given. Writes `columns` >= size weights.
-bool second_difference(const StarGeometry& star, const std::uint8_t* feature, const Flaps* flaps, Index columns,
+/// the link edges too if flaps are given. Writes `columns` >= size weights. Uses the star's scratch.
+bool second_difference(StarGeometry& star, const std::uint8_t* feature, const Flaps* flaps, Index columns,
                        double* weight);
 
 }  // namespace multires::kernels

@@ -143,6 +143,12 @@ bool RowRelaxation::accept(bool found, const Star& star, Index columns, double* 
     return true;
 }
 
+Index RowRelaxation::flap_columns(const Star& star) {
+    if (star.kind != RingKind::closed) return star.size;
+    const auto counts = [&](Index f) { return f >= 0 && f != star.vertex; };
+    return star.size + static_cast<Index>(std::count_if(star.flap, star.flap + star.size, counts));
+}
+
 void RowRelaxation::flap_slots(const Star& star) {
     if (star.size > static_cast<Index>(slot_.size())) {
         slot_.resize(2 * star.size);
@@ -193,16 +199,12 @@ void RowRelaxation::hash_flaps(const Star& star) {
     }
 }
 
-Index RowRelaxation::flap_columns(const Star& star) {
-    flap_slots(star);
-    return star.size + extra_count_;
-}
-
 bool RowRelaxation::flaps(const Star& star, const Positions& positions, Index* column, double* weight) {
     flap_slots(star);
-    const Index columns = star.size + extra_count_;
+    const Index columns = flap_columns(star), own = star.size + extra_count_;
     std::copy_n(star.neighbor, star.size, column);
     std::copy_n(extra_.data(), extra_count_, column + star.size);
+    if (own < columns) std::fill(column + own, column + columns, column[0]);  // flaps that had a column already
     const Curve curve = rule(star);
     if (curve.rule != Rule::disk) {
         std::fill_n(weight, columns, 0.0);

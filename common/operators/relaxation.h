@@ -79,7 +79,7 @@ struct RingWeights {
 /// Sparse rows with columns of their own, aligned with the rows of some Rings.
 struct Rows {
     Array<Index> offset{0};   ///< #rows+1
-    Array<Index> column;      ///< #entries: vertices, all different within a row
+    Array<Index> column;      ///< #entries: vertices; within a row, those with a weight all differ
     Array<double> weight;     ///< #entries; zeros in the rows kept
     std::vector<Index> kept;  ///< ascending: the rows whose vertex keeps its value
 };
@@ -91,7 +91,8 @@ struct Rows {
 RingWeights ring_weights(const Rings& rings, const Positions& positions, const RelaxationOptions& options = {});
 
 /// The rows of any operator. The columns of a row are the ring in its order, then the flap vertices that are not in the
-/// ring, in the order they first occur. Other operators than those with flaps have the ring only.
+/// ring, in the order they first occur; a flap that had a column already leaves an entry of weight 0 at the end. Other
+/// operators than those with flaps have the ring only.
 /// @param positions  as above
 /// @throws std::invalid_argument if the operator uses flaps and the rings have none
 /// Cost: as above; rows longer than 64 hash their flaps.
@@ -114,7 +115,7 @@ public:
     /// @returns false if the vertex keeps its value; the weights are zero then
     bool ring(const Star& star, const Positions& positions, double* weight);
 
-    /// How many columns the row of an operator with flaps has; at most 2 star.size.
+    /// How many entries the row of an operator with flaps has: the ring and its flaps; at most 2 star.size.
     Index flap_columns(const Star& star);
 
     /// Writes the columns and weights of a row of an operator with flaps.

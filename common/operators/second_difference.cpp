@@ -17,75 +17,94 @@ namespace multires::kernels {
 
 namespace {
 
-/// The sums over the edges of one row.
-class LeastSquares {
-public:
-    LeastSquares(const StarGeometry& star, double* weight) : star_(star), weight_(weight) {}
+/// The sum of c_e,i^2 over edges, and what rounding in it is measured by.
+struct Divisor {
+    double value = 0, scale = 0;
+};
 
-    /// Adds the spoke to neighbour j, between the triangles i = j-1 and j.
-    void spoke(Index i, Index j, Index k) {
-        if (star_.solid[i] * star_.solid[j] == 0) return;
-        const double own = -(star_.cot2[i] + star_.cot1[j]);
-        const double scale = own / star_.square[j];
-        weight_[j] += scale * (star_.cot0[i] + star_.cot0[j]);
-        weight_[i] -= scale * (star_.cot0[i] + star_.cot2[i]);
-        weight_[k] -= scale * (star_.cot0[j] + star_.cot1[j]);
-        divisor_ += scale * own;
-        squares_ += (own * own + std::pow(star_.cot0[i] + star_.cot0[j], 2)) / star_.square[j];
+/// 1 / x where it counts, 0 elsewhere.
+double inverse_if(double counts, double x) { return counts != 0 ? 1 / x : 0; }
+
+/// Adds the spokes that are no features; entry j is between the triangles j-1 and j.
+///
+/// In two loops: what each edge gives to the three vertices around it, without branches, then what each vertex gets.
+Divisor add_spokes(StarGeometry& star, const std::uint8_t* feature, double* weight) {
+    const Index n = star.size;
+    double *to_self = star.scratch[0], *to_previous = star.scratch[1], *to_next = star.scratch[2];
+    double *divisor = star.scratch[3], *squares = star.scratch[4];
+    const auto spoke = [&](Index i, Index j) {
+        const double own = -(star.cot2[i] + star.cot1[j]), other = star.cot0[i] + star.cot0[j];
+        const double inverse = inverse_if(star.solid[i] * star.solid[j], star.square[j]), scale = own * inverse;
+        to_self[j] = scale * other;
+        to_previous[j] = scale * (star.cot0[i] + star.cot2[i]);
+        to_next[j] = scale * (star.cot0[j] + star.cot1[j]);
+        divisor[j] = scale * own;
+        squares[j] = inverse * (own * own + other * other);
+    };
+    spoke(n - 1, 0);
+    for (Index j = 1; j < n; ++j) spoke(j - 1, j);
+    if (feature != nullptr)
+        for (Index j = 0; j < n; ++j)
+            if (feature[j] != 0) to_self[j] = to_previous[j] = to_next[j] = divisor[j] = squares[j] = 0;
+    Divisor sum;
+    for (Index j = 0; j < n; ++j) {
+        weight[j] += to_self[j] - to_previous[j + 1 < n ? j + 1 : 0] - to_next[j > 0 ? j - 1 : n - 1];
+        sum.value += divisor[j], sum.scale += squares[j];
     }
+    return sum;
+}
 
-    /// Adds the link edge from neighbour j to k, between triangle j and the flap vertex at `f`.
-    void link(Index j, Index k, const Vec3& f, Index slot, double degenerate) {
-        if (star_.solid[j] == 0) return;
-        const double ex = star_.x[k] - star_.x[j], ey = star_.y[k] - star_.y[j], ez = star_.z[k] - star_.z[j];
-        const double gx = f.x() - star_.x[j], gy = f.y() - star_.y[j], gz = f.z() - star_.z[j];
+/// Adds the link edges; entry j is between triangle j and its flap.
+Divisor add_links(StarGeometry& star, const Flaps& flaps, double* weight) {
+    const Index n = star.size;
+    double *fx = star.scratch[0], *fy = star.scratch[1], *fz = star.scratch[2];
+    double *to_self = star.scratch[3], *to_next = star.scratch[4], *to_flap = star.scratch[5];
+    double* divisor = star.scratch[6];
+    for (Index j = 0; j < n; ++j) {
+        const Vec3 f = flaps.slot[j] < 0 ? flaps.center : (*flaps.positions)[flaps.vertex[j]];
+        fx[j] = f.x() - flaps.center.x(), fy[j] = f.y() - flaps.center.y(), fz[j] = f.z() - flaps.center.z();
+    }
+    for (Index j = 0; j < n; ++j) {
+        const double ex = star.x[j + 1] - star.x[j], ey = star.y[j + 1] - star.y[j], ez = star.z[j + 1] - star.z[j];
+        const double gx = fx[j] - star.x[j], gy = fy[j] - star.y[j], gz = fz[j] - star.z[j];
         const double e2 = ex * ex + ey * ey + ez * ez, g2 = gx * gx + gy * gy + gz * gz;
         const double d = ex * gx + ey * gy + ez * gz;
         const double cx = ey * gz - ez * gy, cy = ez * gx - ex * gz, cz = ex * gy - ey * gx;
         const double a = std::sqrt(cx * cx + cy * cy + cz * cz);
-        if (!(a > degenerate * 2 * (e2 + g2 - d))) return;
-        const double inverse = 1 / a, cot_j = d * inverse, cot_k = (e2 - d) * inverse;
-        const double own = star_.cot1[j] + star_.cot2[j];
-        const double scale = own / e2;
-        weight_[slot] -= scale * (cot_j + cot_k);
-        weight_[j] += scale * (star_.cot2[j] + cot_k);
-        weight_[k] += scale * (star_.cot1[j] + cot_j);
-        divisor_ += scale * own;
-        squares_ += scale * own;
+        const double counts = a > flaps.degenerate * 2 * (e2 + g2 - d) ? star.solid[j] : 0;
+        const double inverse = inverse_if(counts, a), cot_j = d * inverse, cot_k = (e2 - d) * inverse;
+        const double own = star.cot1[j] + star.cot2[j], scale = own * inverse_if(counts, e2);
+        to_flap[j] = scale * (cot_j + cot_k);
+        to_self[j] = scale * (star.cot2[j] + cot_k);
+        to_next[j] = scale * (star.cot1[j] + cot_j);
+        divisor[j] = scale * own;
     }
-
-    /// Divides by sum_e c_e,i^2; false if the differences do not depend on the vertex.
-    bool solve(Index columns) {
-        if (!(divisor_ > 1e-20 * squares_)) return false;
-        const double inverse = 1 / divisor_;
-        for (Index k = 0; k < columns; ++k) weight_[k] *= inverse;
-        return true;
+    Divisor sum;
+    for (Index j = 0; j < n; ++j) {
+        if (flaps.slot[j] < 0) continue;
+        weight[flaps.slot[j]] -= to_flap[j];
+        weight[j] += to_self[j];
+        weight[j + 1 < n ? j + 1 : 0] += to_next[j];
+        sum.value += divisor[j];
     }
-
-private:
-    const StarGeometry& star_;
-    double* weight_;
-    double divisor_ = 0, squares_ = 0;
-};
+    sum.scale = sum.value;
+    return sum;
+}
 
 }  // namespace
 
-bool second_difference(const StarGeometry& star, const std::uint8_t* feature, const Flaps* flaps, Index columns,
+bool second_difference(StarGeometry& star, const std::uint8_t* feature, const Flaps* flaps, Index columns,
                        double* weight) {
-    const Index n = star.size;
     std::fill_n(weight, columns, 0.0);
-    LeastSquares sum(star, weight);
-    for (Index j = 0; j < n; ++j) {
-        if (feature == nullptr || feature[j] == 0) sum.spoke(j > 0 ? j - 1 : n - 1, j, j + 1 < n ? j + 1 : 0);
-    }
+    Divisor divisor = add_spokes(star, feature, weight);
     if (flaps != nullptr) {
-        for (Index j = 0; j < n; ++j) {
-            if (flaps->slot[j] < 0) continue;
-            const Vec3 f = (*flaps->positions)[flaps->vertex[j]] - flaps->center;
-            sum.link(j, j + 1 < n ? j + 1 : 0, f, flaps->slot[j], flaps->degenerate);
-        }
+        const Divisor links = add_links(star, *flaps, weight);
+        divisor.value += links.value, divisor.scale += links.scale;
     }
-    return sum.solve(columns);
+    if (!(divisor.value > 1e-20 * divisor.scale)) return false;  // the differences do not depend on the vertex
+    const double inverse = 1 / divisor.value;
+    for (Index k = 0; k < columns; ++k) weight[k] *= inverse;
+    return true;
 }
 
 }  // namespace multires::kernels

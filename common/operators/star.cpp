@@ -11,10 +11,14 @@ void StarGeometry::reserve(Index n) {
     if (n + 1 <= capacity_) return;
     capacity_ = std::max<Index>({n + 1, 2 * capacity_, 64});
     double** const arrays[] = {&x, &y, &z, &square, &dot, &area, &solid, &cot0, &cot1, &cot2};
-    memory_.resize(std::size(arrays) * static_cast<std::size_t>(capacity_));
+    memory_.resize((std::size(arrays) + scratch.size()) * static_cast<std::size_t>(capacity_));
     double* at = memory_.data();
     for (double** array : arrays) {
         *array = at;
+        at += capacity_;
+    }
+    for (double*& array : scratch) {
+        array = at;
         at += capacity_;
     }
     next.resize(capacity_);

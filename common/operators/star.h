@@ -2,6 +2,7 @@
 
 #include "mesh/rings.h"
 
+#include <array>
 #include <vector>
 
 namespace multires {
@@ -56,6 +57,7 @@ public:
     double* cot1 = nullptr;   ///< at neighbour j,
     double* cot2 = nullptr;   ///< at neighbour j+1
     // #size+1, for the operators:
+    std::array<double*, 7> scratch{};
     std::vector<Index> next, previous;
 
 private:

@@ -153,9 +153,10 @@ TEST(SecondDifference, ColumnsAreTheRingThenTheOtherFlapsOnce) {
                 const Index f = rings.flap[k];
                 if (f >= 0 && std::find(expected.begin(), expected.end(), f) == expected.end()) expected.push_back(f);
             }
-            const std::vector<Index> columns(rows.column.begin() + rows.offset[r],
-                                             rows.column.begin() + rows.offset[r + 1]);
-            EXPECT_EQ(columns, expected);
+            const Index begin = rows.offset[r], own = static_cast<Index>(expected.size());
+            ASSERT_LE(own, rows.offset[r + 1] - begin);
+            EXPECT_EQ(std::vector<Index>(rows.column.begin() + begin, rows.column.begin() + begin + own), expected);
+            for (Index k = begin + own; k < rows.offset[r + 1]; ++k) EXPECT_EQ(rows.weight[k], 0);
         }
     }
 }
@@ -205,9 +206,11 @@ TEST(SecondDifference, LargeRowsMergeFlapsAsSmallOnesDo) {
         const Rings rings = rings_with_flaps(mesh);
         ASSERT_EQ(rings.kind[0], RingKind::closed);
         const Rows rows = relaxation(rings, mesh.positions, with(Operator::second_difference_flaps));
-        ASSERT_EQ(rows.offset[1], n + n / 2);
+        ASSERT_EQ(rows.offset[1], 2 * n);
         std::map<Index, double> expected = minimiser(rings, 0, mesh.positions, true);
-        for (Index k = 0; k < rows.offset[1]; ++k) EXPECT_NEAR(rows.weight[k], expected.at(rows.column[k]), 1e-9);
+        ASSERT_EQ(static_cast<Index>(expected.size()), n + n / 2);
+        for (Index k = 0; k < 2 * n; ++k)
+            EXPECT_NEAR(rows.weight[k], k < n + n / 2 ? expected.at(rows.column[k]) : 0, 1e-9);
     }
 }
 
