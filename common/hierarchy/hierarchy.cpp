@@ -7,6 +7,8 @@
 #include "parallel/parallel.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 namespace multires {
 namespace {
@@ -82,13 +84,40 @@ Hierarchy assemble(std::vector<Step> steps, const HierarchyOptions& options) {
     return h;
 }
 
+/// True if many neighbours lie too far apart in memory to share a cache.
+bool jumps_about(const Rings& rings) {
+    const Index n = rings.rows();
+    const Index near = std::max<Index>(2048, static_cast<Index>(2 * std::sqrt(static_cast<double>(n))));
+    if (n <= 2 * near) return false;
+    std::int64_t far = 0;
+    for (Index i = 0; i < n; ++i)
+        for (Index j = 0; j < rings.size(i); ++j) far += std::abs(rings.begin(i)[j] - i) > near;
+    return 10 * far > static_cast<std::int64_t>(rings.neighbor.size());
+}
+
+/// independent_sets() and assemble(), in an order of vertices that is kind to caches.
+Hierarchy by_sets(Rings rings, Positions positions, const HierarchyOptions& options, const Tick& tick) {
+    if (!jumps_about(rings))
+        return assemble(independent_sets(std::move(rings), std::move(positions), options, tick), options);
+    const Array<Index> order = breadth_first_order(rings);
+    const Index n = rings.rows();
+    Array<Index> place(n);
+    Positions moved(n);
+    for (Index i = 0; i < n; ++i) place[order[i]] = i;
+    parallel_for(n, [&](Index i) { moved[i] = positions[order[i]]; });
+    rings = renumbered(rings, order, place, n);
+    Hierarchy h = assemble(independent_sets(std::move(rings), std::move(moved), options, tick), options);
+    for (Index& v : h.order) v = order[v];
+    return h;
+}
+
 }  // namespace
 
 Hierarchy build_hierarchy(Rings rings, const Positions& positions, const HierarchyOptions& options, const Tick& tick) {
     const Index irregular = static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::irregular));
     const Index isolated = static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::isolated));
     Hierarchy h = options.grouping == Grouping::independent_sets
-                      ? assemble(independent_sets(std::move(rings), normalised(positions), options, tick), options)
+                      ? by_sets(std::move(rings), normalised(positions), options, tick)
                       : sequential(rings, normalised(positions), options, tick);
     h.irregular = irregular;
     h.isolated = isolated;

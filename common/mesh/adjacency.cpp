@@ -264,4 +264,22 @@ void mark_features(Rings& rings, const Faces& faces, const std::vector<std::uint
             }
 }
 
+Array<Index> breadth_first_order(const Rings& rings) {
+    const Index n = rings.rows();
+    Array<Index> order;
+    order.reserve(n);
+    std::vector<std::uint8_t> seen(n, 0);
+    const auto visit = [&](Index v) {
+        if (!seen[v]) seen[v] = 1, order.push_back(v);
+    };
+    for (Index start = 0; start < n; ++start) {
+        std::size_t at = order.size();
+        for (visit(start); at < order.size(); ++at) {
+            const Index v = order[at];
+            for (Index j = 0; j < rings.size(v); ++j) visit(rings.begin(v)[j]);
+        }
+    }
+    return order;
+}
+
 }  // namespace multires

@@ -31,4 +31,8 @@ void mark_features_by_angle(Rings& rings, const Positions& positions, double deg
 /// @param edges  #F, e.g. the edges that are not faux, or selected ones
 void mark_features(Rings& rings, const Faces& faces, const std::vector<std::uint8_t>& edges);
 
+/// Vertices in breadth-first order over the rings, so that neighbours have near numbers wherever the mesh's own order
+/// jumps about. Depends on the connectivity alone; serial, linear in the entries.
+Array<Index> breadth_first_order(const Rings& rings);
+
 }  // namespace multires
