@@ -93,7 +93,7 @@ def runner(tree, display):
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            timeout=180,
+            timeout=300,
         )
 
     return run

@@ -32,7 +32,7 @@
 /// variable MULTIRES_PILOT: a JSON list of commands, each a list of words (see Pilot::command).
 ///
 /// Each command waits until it can be done and is then done; the program ends after the last with status 0, or with 1
-/// and a word on standard error if a command cannot be done in a minute, or if a message box appears that no command
+/// and a word on standard error if a command cannot be done in two minutes, or if a message box appears that no command
 /// is waiting for. Nothing depends on how long anything takes.
 class Pilot final : public QObject {
     Q_OBJECT
@@ -76,13 +76,16 @@ private:
     }
 
     void tick() {
-        // The loop level tells the start, where meshes are loaded, and a filter that lets events through, from rest.
-        if (busy_ || QThread::currentThread()->loopLevel() < 1) return;
+        // Events get through while meshes are loaded at the start (the loop level tells) and while filters run and
+        // files are written.
+        if (busy_ || (acting_ && !QApplication::activeModalWidget()) || QThread::currentThread()->loopLevel() < 1)
+            return;
         if (next_ == script_.size()) std::_Exit(0);  // a question on screen would keep quit() waiting
         const QString verb = word(0);
         const auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
         if (box && verb != "press") fail("there is a message: " + box->text());
-        if (waiting_.elapsed() > 60000) fail("cannot " + verb + " " + word(1));
+        if (waiting_.elapsed() > 120000) fail("cannot " + verb + " " + word(1));
+        if (QApplication::activeModalWidget() && verb != "press") return;
         busy_ = true;
         const bool done = command(verb)();
         busy_ = false;
@@ -176,7 +179,11 @@ private:
             if (path.section('/', -1) == entry && action->isEnabled()) found = action;
         });
         if (!found) return false;
-        QTimer::singleShot(0, found, &QAction::trigger);  // not from here: it may not return before a dialog is closed
+        acting_ = true;
+        QTimer::singleShot(0, this, [this, found] {  // not from here: it may not return before a dialog is closed
+            found->trigger();
+            acting_ = false;
+        });
         return true;
     }
 
@@ -258,7 +265,8 @@ private:
     QElapsedTimer waiting_;
     QJsonArray script_;
     int next_ = 0;
-    bool busy_ = false;
+    bool busy_ = false;    ///< with a command
+    bool acting_ = false;  ///< an entry that was chosen is being carried out; it may open a modal dialog
     QImage before_;
 };
 
