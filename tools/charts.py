@@ -21,8 +21,10 @@ def plain(value):
 
 
 def frame(label, body):
-    return (f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{html.escape(label)}">'
-            f'<path class="axis" d="M{LEFT} {TOP}V{BOTTOM}H{RIGHT}"/>{body}</svg>')  # fmt: skip
+    return (
+        f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{html.escape(label)}">'
+        f'<path class="axis" d="M{LEFT} {TOP}V{BOTTOM}H{RIGHT}"/>{body}</svg>'
+    )
 
 
 def polyline(xs, ys, kind):
@@ -34,9 +36,11 @@ def ticks(values, at, horizontal):
     out = []
     for value in values:
         p = at(value)
-        out.append(f'<path class="tick" d="M{p:.1f} {BOTTOM}v4"/><text x="{p:.1f}" y="{BOTTOM + 16}" text-anchor="middle">{plain(value)}</text>'
-                   if horizontal else
-                   f'<path class="grid" d="M{LEFT} {p:.1f}H{RIGHT}"/><text x="{LEFT - 5}" y="{p + 4:.1f}" text-anchor="end">{plain(value)}</text>')  # fmt: skip
+        out.append(
+            f'<path class="tick" d="M{p:.1f} {BOTTOM}v4"/><text x="{p:.1f}" y="{BOTTOM + 16}" text-anchor="middle">{plain(value)}</text>'
+            if horizontal
+            else f'<path class="grid" d="M{LEFT} {p:.1f}H{RIGHT}"/><text x="{LEFT - 5}" y="{p + 4:.1f}" text-anchor="end">{plain(value)}</text>'
+        )
     return "".join(out)
 
 
@@ -97,11 +101,17 @@ def shapes(outcome, before, most):
     marks = ticks((0, 0.5, 1), lambda x: LEFT + (RIGHT - LEFT) * x, True)
     marks += ticks((most / 2, most), lambda y: BOTTOM - (BOTTOM - TOP) * y / most, False)
     axis = f'<text class="name" x="{(LEFT + RIGHT) / 2}" y="{HEIGHT - 2}" text-anchor="middle">shape; up: percent of triangles</text>'
-    return frame(f"Shape of the triangles before and after {outcome.title}", filled + marks + polyline(*steps(share(outcome.shapes)), "after") + axis)
+    return frame(
+        f"Shape of the triangles before and after {outcome.title}",
+        filled + marks + polyline(*steps(share(outcome.shapes)), "after") + axis,
+    )
 
 
 def legend(colors, labels):
     """A band of colours with a label at its left, middle and right."""
     stops = ", ".join("#" + "".join(f"{round(255 * c):02x}" for c in color) for color in colors)
-    return (f'<div class="legend"><i style="background:linear-gradient(90deg,{stops})"></i>'
-            + "".join(f"<span>{html.escape(label)}</span>" for label in labels) + "</div>")  # fmt: skip
+    return (
+        f'<div class="legend"><i style="background:linear-gradient(90deg,{stops})"></i>'
+        + "".join(f"<span>{html.escape(label)}</span>" for label in labels)
+        + "</div>"
+    )

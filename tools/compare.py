@@ -184,10 +184,14 @@ def main():
     parser.add_argument("mesh", type=pathlib.Path, nargs="?", default=BUNNY, help="by default the Stanford bunny")
     known = parser.add_mutually_exclusive_group()
     known.add_argument("--truth", type=pathlib.Path, help="the mesh without its noise; best with the same faces")
-    known.add_argument("--noise", type=float, help="add noise of this deviation, in mean edge lengths; MESH is the truth")
+    known.add_argument(
+        "--noise", type=float, help="add noise of this deviation, in mean edge lengths; MESH is the truth"
+    )
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("demo-output"))
     parser.add_argument("--build", type=pathlib.Path, default=BUILD)
-    parser.add_argument("--up", choices=("x", "y", "z", "-x", "-y", "-z"), help="the axis that points up in the pictures")
+    parser.add_argument(
+        "--up", choices=("x", "y", "z", "-x", "-y", "-z"), help="the axis that points up in the pictures"
+    )
     parser.add_argument("--repeats", type=int, default=3, help="runs for the times")
     parser.add_argument("--tile", type=int, default=440, help="side of one picture, pixels")
     arguments = parser.parse_args()

@@ -81,7 +81,9 @@ def plain(text):
 def purpose_and_sources(info):
     """What a filter does, and its papers: "authors, title, where"."""
     purpose, *cited = re.split(r"(?:<br>)+\s*See:<br>|(?=<i>(?:[A-Z][^<]*)</i><br>\s*<b>)", info)
-    sources = [re.sub(r"\s+", " ", plain(c.replace("<br>", " ").replace("</i>", ":"))).replace(" :", ":") for c in cited]
+    sources = [
+        re.sub(r"\s+", " ", plain(c.replace("<br>", " ").replace("</i>", ":"))).replace(" :", ":") for c in cited
+    ]
     return plain(purpose), [re.sub(r':\s*"([^"]*)"', r': "\1",', s).strip().rstrip(".") + "." for s in sources if s]
 
 
@@ -239,7 +241,10 @@ def function(row, shared):
     lines += [f") -> {report_class(row)}:"]
     first, *rest = re.split(r"(?<=\.)\s+", purpose, maxsplit=1)
     lines += [*wrapped(f'"""{first}', 4), ""]
-    for paragraph in [*rest, f"The filter {row['python_name']}, on the current mesh; the mesh is unchanged if it fails."]:
+    for paragraph in [
+        *rest,
+        f"The filter {row['python_name']}, on the current mesh; the mesh is unchanged if it fails.",
+    ]:
         lines += [*wrapped(paragraph, 4), ""]
     lines += ["    Args:", "        ms: the document."]
     for p in parameters:
@@ -252,7 +257,7 @@ def function(row, shared):
     lines += ["", "    Raises:", "        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why."]
     if sources:
         lines += ["", "    See:", *[line for s in sources for line in wrapped(s, 8, 4)]]
-    lines += ['    """', f"    return apply({report_class(row)}, ms, \"{row['python_name']}\", {{"]
+    lines += ['    """', f'    return apply({report_class(row)}, ms, "{row["python_name"]}", {{']
     lines += [f'        "{p["name"]}": {p["name"]},' for p in parameters]
     return [*lines, "    })"]
 
@@ -326,7 +331,9 @@ def examples_readme():
              "    meshlabserver -i scan.ply -s examples/denoise.mlx -o clean.ply", "",
              "    ms.load_filter_script(\"examples/denoise.mlx\")     # pymeshlab, after load_plugin",
              "    ms.apply_filter_script()", "", "| Script | What it does |", "|---|---|"]  # fmt: skip
-    return "\n".join([*lines, *[f"| [{name}.mlx]({name}.mlx) | {what} |" for name, (what, _) in EXAMPLES.items()]]) + "\n"
+    return (
+        "\n".join([*lines, *[f"| [{name}.mlx]({name}.mlx) | {what} |" for name, (what, _) in EXAMPLES.items()]]) + "\n"
+    )
 
 
 # ---- all -------------------------------------------------------------------------------------------------------------

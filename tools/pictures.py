@@ -38,7 +38,9 @@ def stripes(v):
 def waves(v):
     """A scalar with long waves and fine noise."""
     scale = np.ptp(v, axis=0).max()
-    return np.sin(9 * v[:, 0] / scale) + np.cos(7 * v[:, 1] / scale) + 0.6 * np.random.default_rng(2).normal(size=len(v))
+    return (
+        np.sin(9 * v[:, 0] / scale) + np.cos(7 * v[:, 1] / scale) + 0.6 * np.random.default_rng(2).normal(size=len(v))
+    )
 
 
 def with_colors(v, f):
@@ -69,7 +71,9 @@ def painted(title, words, ms):
 
 
 def meshed(title, words, ms):
-    return Panel(title, f"{ms.current_mesh().vertex_number():,} vertices{words}", *arrays(ms.current_mesh()), edges=True)
+    return Panel(
+        title, f"{ms.current_mesh().vertex_number():,} vertices{words}", *arrays(ms.current_mesh()), edges=True
+    )
 
 
 def custom(title, words, ms):
@@ -104,21 +108,89 @@ PAIRS = {
     "compute_multires_pyramid": None,  # levels()
     "generate_multires_level": (document, meshed, "", {"level": 9}, meshed, ", level 9"),
     "compute_scalar_multires_detail_per_vertex": (
-        document, shaded, "", {**PERCENT, "finest": 1, "coarsest": 6, "signed_normal": True}, quality, "1 to 6 % of the box, signed"),
+        document,
+        shaded,
+        "",
+        {**PERCENT, "finest": 1, "coarsest": 6, "signed_normal": True},
+        quality,
+        "1 to 6 % of the box, signed",
+    ),
     "apply_coord_multires_low_pass": (document, shaded, "", {**PERCENT, "cutoff": 4}, shaded, "cutoff 4 % of the box"),
-    "apply_coord_multires_stop_band": (document, shaded, "", {**PERCENT, "finest": 3, "coarsest": 12}, shaded, "3 to 12 % removed"),
-    "apply_coord_multires_enhance": (document, shaded, "", {**PERCENT, "finest": 1.5, "coarsest": 12, "gain": 2.5}, shaded, "1.5 to 12 %, gain 2.5"),
+    "apply_coord_multires_stop_band": (
+        document,
+        shaded,
+        "",
+        {**PERCENT, "finest": 3, "coarsest": 12},
+        shaded,
+        "3 to 12 % removed",
+    ),
+    "apply_coord_multires_enhance": (
+        document,
+        shaded,
+        "",
+        {**PERCENT, "finest": 1.5, "coarsest": 12, "gain": 2.5},
+        shaded,
+        "1.5 to 12 %, gain 2.5",
+    ),
     "apply_coord_multires_equalizer": (
-        document, shaded, "", {"gain_1": 0, "gain_2": 0, "gain_3": 0, "gain_4": 3, "gain_5": 2.5}, shaded, "gains 0 0 0 3 2.5 1 1 1"),
+        document,
+        shaded,
+        "",
+        {"gain_1": 0, "gain_2": 0, "gain_3": 0, "gain_4": 3, "gain_5": 2.5},
+        shaded,
+        "gains 0 0 0 3 2.5 1 1 1",
+    ),
     "apply_coord_multires_unsharp": (document, shaded, "", {}, shaded, "strength 2, 10 steps: the defaults"),
     "apply_coord_multires_denoise": (noisy, shaded, "noise of 0.2 edge lengths", {}, shaded, "no parameter given"),
-    "apply_attributes_multires_relaxation": (with_colors, painted, "noise on the colours", {"iterations": 20}, painted, "20 iterations"),
-    "apply_attributes_multires_band": (with_colors, painted, "noise on the colours", {**PERCENT, "cutoff": 5}, painted, "low pass, cutoff 5 %"),
-    "apply_attributes_multires_band_custom": (with_scalar, custom, "a scalar with noise", {**PERCENT, "cutoff": 6}, custom, "low pass, cutoff 6 %"),
-    "apply_attributes_multires_denoise": (with_colors, painted, "noise on the colours", {"strength": 1.5}, painted, "strength 1.5"),
-    "generate_multires_texcoord": (document, shaded, "", {"projection": "cylindrical", "axis": "y"}, checkered, "cylinder, checkered"),
-    "generate_multires_adaptive_reconstruction": (document, meshed, "", {"target": "RMS distance", "unit": "percent", "error": 0.05}, meshed, ", RMS 0.05 %"),
-}  # fmt: skip
+    "apply_attributes_multires_relaxation": (
+        with_colors,
+        painted,
+        "noise on the colours",
+        {"iterations": 20},
+        painted,
+        "20 iterations",
+    ),
+    "apply_attributes_multires_band": (
+        with_colors,
+        painted,
+        "noise on the colours",
+        {**PERCENT, "cutoff": 5},
+        painted,
+        "low pass, cutoff 5 %",
+    ),
+    "apply_attributes_multires_band_custom": (
+        with_scalar,
+        custom,
+        "a scalar with noise",
+        {**PERCENT, "cutoff": 6},
+        custom,
+        "low pass, cutoff 6 %",
+    ),
+    "apply_attributes_multires_denoise": (
+        with_colors,
+        painted,
+        "noise on the colours",
+        {"strength": 1.5},
+        painted,
+        "strength 1.5",
+    ),
+    "generate_multires_texcoord": (
+        document,
+        shaded,
+        "",
+        {"projection": "cylindrical", "axis": "y"},
+        checkered,
+        "cylinder, checkered",
+    ),
+    "generate_multires_adaptive_reconstruction": (
+        document,
+        meshed,
+        "",
+        {"target": "RMS distance", "unit": "percent", "error": 0.05},
+        meshed,
+        ", RMS 0.05 %",
+    ),
+}
 
 
 def title_of(name):

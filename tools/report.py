@@ -86,7 +86,8 @@ class Views:
         return self._cropped(self._render(outcome, self.camera, colors))
 
     def moved(self, outcome):
-        return self._cropped(self._render(outcome, self.camera, rendering.coloured(outcome.moved, 0, self.most_moved, MOVED_COLORS)))
+        colors = rendering.coloured(outcome.moved, 0, self.most_moved, MOVED_COLORS)
+        return self._cropped(self._render(outcome, self.camera, colors))
 
 
 def kind(outcome):
@@ -100,8 +101,12 @@ def name(outcome):
 
 
 def gallery(outcomes, image, alt, caption, wide=False):
-    """A grid of pictures with captions; image(outcome) -> HTML."""
-    figures = [f'<figure class="{kind(o)}">{image(o) if alt is None else picture(image(o), f"{alt} {name(o)}", loading="lazy")}'
+    """A grid with captions; image(outcome) is a picture or, where alt is None, HTML."""
+
+    def shown(o):
+        return image(o) if alt is None else picture(image(o), f"{alt} {name(o)}", loading="lazy")
+
+    figures = [f'<figure class="{kind(o)}">{shown(o)}'
                f'<figcaption><strong>{text(o.title)}</strong> <span>{caption(o)}</span></figcaption></figure>'
                for o in outcomes]  # fmt: skip
     # As many columns as leave the last row fullest.
@@ -123,7 +128,8 @@ def rivals(case, smoothers):
     theirs = [o for o in smoothers if o.ours is False]
     if case.truth_known:
         return ours, best(theirs)
-    return ours, min(theirs, key=lambda o: abs(math.log(max(o.figures["moved"], 1e-9) / max(ours.figures["moved"], 1e-9))))
+    moved = max(ours.figures["moved"], 1e-9)
+    return ours, min(theirs, key=lambda o: abs(math.log(max(o.figures["moved"], 1e-9) / moved)))
 
 
 def headline(case, ours, theirs):
@@ -131,19 +137,21 @@ def headline(case, ours, theirs):
     if not case.truth_known:
         return f"Denoise and MeshLab’s {theirs.title} smoothing, moving {case.name} about equally far"
     untuned, tuned = f"Denoise, untuned: normals off by {a}.", f"MeshLab’s best of all settings, {theirs.title}: {b}."
-    return f"{untuned} {tuned}" if ours.figures["angle"] <= theirs.figures["angle"] else f"{tuned} {untuned}"
+    first = ours.figures["angle"] <= theirs.figures["angle"]
+    return f"{untuned} {tuned}" if first else f"{tuned} {untuned}"
 
 
 def summary(case, inputs, smoothers):
     if not case.truth_known:
         return ("The true surface is not known, so nothing here is better or worse: every filter ran with its own "
-                "defaults and is measured against the input. Shown first are Denoise and the MeshLab smoother that moves "
-                "vertices about as far.")  # fmt: skip
+                "defaults and is measured against the input. Shown first are Denoise and the MeshLab smoother that "
+                "moves vertices about as far.")  # fmt: skip
     theirs = [o for o in smoothers if o.ours is False]
     begin = (f"{case.noise:g} edge lengths of noise were added to {text(case.name)}" if case.noise else
              "The truth is known")  # fmt: skip
-    return (f"{begin}; the input’s normals are off by {degrees(inputs[0].figures['angle'])}. MeshLab’s {len(theirs)} smoothers "
-            f"were tried with {sum(o.tried for o in theirs)} settings and judged by the truth; Denoise ran once, with its defaults.")  # fmt: skip
+    return (f"{begin}; the input’s normals are off by {degrees(inputs[0].figures['angle'])}. MeshLab’s {len(theirs)} "
+            f"smoothers were tried with {sum(o.tried for o in theirs)} settings and judged by the truth; Denoise ran "
+            "once, with its defaults.")  # fmt: skip
 
 
 def hero_figures(case, o):
@@ -165,7 +173,7 @@ def hero(case, views, shown):
     tiles = []
     for o in shown:
         figures = "".join(f"<li><b>{value}</b> {label}</li>" for value, label in hero_figures(case, o))
-        says = {True: text(o.words), False: text(o.words), None: "what was given" if o is shown[0] else "without noise"}[o.ours]
+        says = text(o.words) or ("what was given" if o is shown[0] else "without noise")
         tiles.append(
             f'<figure class="{kind(o)}"><figcaption><strong>{text(o.title)}</strong><span>{says}</span><ul>{figures}</ul>'
             f'</figcaption>{picture(views.whole(o), f"{name(o)}, whole view", class_="whole")}'
@@ -217,8 +225,8 @@ def figures_table(outcomes, against, label):
         rows.append(f'<tr class="{kind(o)}"><th scope="row">{text(name(o))}</th>{"".join(cells)}'
                     f"<td class=words>{text(o.words)}{tried}</td></tr>")  # fmt: skip
     head = "".join(f'<th scope="col">{text(heading)}</th>' for _, heading, _ in COLUMNS)
-    table = (f'<table><caption>{label}</caption><thead><tr><th scope="col">filter</th>{head}<th scope="col">parameters</th>'
-             f'</tr></thead><tbody>{"".join(rows)}</tbody></table>')  # fmt: skip
+    table = (f'<table><caption>{label}</caption><thead><tr><th scope="col">filter</th>{head}'
+             f'<th scope="col">parameters</th></tr></thead><tbody>{"".join(rows)}</tbody></table>')  # fmt: skip
     return f'<div class="scroll" tabindex="0" role="region" aria-label="{text(label)}">{table}</div>'
 
 
@@ -241,32 +249,36 @@ def triangle_shapes(outcomes, before):
 
 def how(case, smoothers, bands):
     """How it was measured, in words."""
+    reference = "truth" if case.truth_known else "input"
     tuning = (
-        "<p><strong>Tuning.</strong> A filter is only as good as its parameters, so MeshLab’s smoothers got the best of a "
-        "grid: each was run with every setting of it, and what is shown is the one with the least mean angle to the true "
-        "normals; the list below also has the setting with the least RMS distance. Nobody who has only the noisy mesh can choose like this. Ours ran with the defaults, which they "
-        "derive from the mesh; where a row says something else, the row says what.</p>"
+        "A filter is only as good as its parameters, so MeshLab’s smoothers got the best of a grid: each was run with "
+        "every setting of it, and what is shown is the one with the least mean angle to the true normals; the list "
+        "below also has the setting with the least RMS distance. Nobody who has only the noisy mesh can choose like "
+        "this. Ours ran with the defaults, which they derive from the mesh; where a row says something else, the row "
+        "says what."
         if case.truth_known else
-        "<p><strong>Tuning.</strong> There is no truth to tune for, so every filter ran with its defaults. With "
-        "<code>--truth</code> or <code>--noise</code> MeshLab’s filters are tuned.</p>")  # fmt: skip
-    grids = "".join(
-        f"<li>{text(o.title)}: {o.tried} setting{'s' * (o.tried > 1)}; shown: {text(o.words)}"
-        + ("" if o.least_rms is None else f"; least RMS distance: {number(o.least_rms[0], '.3f')} with {text(o.least_rms[1])}")
-        + "</li>" for o in [*smoothers, *bands] if o.ours is False)  # fmt: skip
+        "There is no truth to tune for, so every filter ran with its defaults. With <code>--truth</code> or "
+        "<code>--noise</code> MeshLab’s filters are tuned.")  # fmt: skip
+    grids = "".join(f"<li>{grid_words(o)}</li>" for o in [*smoothers, *bands] if o.ours is False)
     version = text(importlib.metadata.version("pymeshlab"))
-    cpu = f"{os.cpu_count()} cores, {platform.machine()}"
-    return (
-        f"{tuning}<ul>{grids}</ul>"
-        f"<p><strong>Measures.</strong> Lengths are in mean edge lengths of the "
-        f"{'truth' if case.truth_known else 'input'}, {number(case.edge, '.4g')} mesh units. "
-        f"<em>Normals off by</em>: mean angle between each face’s normal and that of the same face of the "
-        f"{'truth' if case.truth_known else 'input'} (of the nearest face if the meshes differ). <em>Distance</em>: from the vertices of each "
-        "surface to the other, both ways. <em>Flipped</em>: faces turned by more than 90°. <em>Along the surface</em>: the part "
-        "of the vertices’ way that lies in the tangent plane; smoothing noise needs little of it, and textures slide by it. "
-        "<em>Triangle shape</em>: 1 is equilateral, 0 degenerate. <em>Spectrum</em>: RMS detail of each level of the pyramid that "
-        "<code>compute_multires_pyramid</code> builds of the result.</p>"
-        f"<p><strong>Times.</strong> Medians in one pymeshlab {version} process, without reading and writing files, "
-        f"with building the pyramid ({cpu}).</p>")  # fmt: skip
+    return f"""<p><strong>Tuning.</strong> {tuning}</p><ul>{grids}</ul>
+<p><strong>Measures.</strong> Lengths are in mean edge lengths of the {reference}, {number(case.edge, ".4g")} mesh units.
+<em>Normals off by</em>: mean angle between each face’s normal and that of the same face of the {reference} (of the
+nearest face if the meshes differ). <em>Distance</em>: from the vertices of each surface to the other, both ways.
+<em>Flipped</em>: faces turned by more than 90°. <em>Along the surface</em>: the part of the vertices’ way that lies in
+the tangent plane; smoothing noise needs little of it, and textures slide by it. <em>Triangle shape</em>: 1 is
+equilateral, 0 degenerate. <em>Spectrum</em>: RMS detail of each level of the pyramid that
+<code>compute_multires_pyramid</code> builds of the result.</p>
+<p><strong>Times.</strong> Medians in one pymeshlab {version} process, without reading and writing files, with building
+the pyramid ({os.cpu_count()} cores, {platform.machine()}).</p>"""
+
+
+def grid_words(o):
+    """What was tried of a filter of MeshLab, and what won."""
+    words = f"{text(o.title)}: {o.tried} setting{'s' * (o.tried > 1)}; shown: {text(o.words)}"
+    if o.least_rms is not None:
+        words += f"; least RMS distance: {number(o.least_rms[0], '.3f')} with {text(o.least_rms[1])}"
+    return words
 
 
 def as_json(case, groups):
@@ -274,7 +286,8 @@ def as_json(case, groups):
     rows = [{"title": o.title, "whose": kind(o), "parameters": o.words, "task": task, "tried": o.tried,
              **{k: (None if v is None or not math.isfinite(v) else float(v)) for k, v in o.figures.items()}}
             for task, outcomes in groups.items() for o in outcomes]  # fmt: skip
-    data = {"mesh": case.name, "noise": case.noise, "truth_known": case.truth_known, "edge_length": case.edge, "rows": rows}
+    data = {"mesh": case.name, "noise": case.noise, "truth_known": case.truth_known, "edge_length": case.edge,
+            "rows": rows}  # fmt: skip
     return json.dumps(data).replace("</", "<\\/")
 
 
@@ -283,63 +296,108 @@ def legend(least, most, middle, colors, edge):
                          (number(least / edge, ".2g"), middle, number(most / edge, ".2g") + " edge lengths"))  # fmt: skip
 
 
+def movement(outcomes, views, edge, words):
+    """The movement maps and their legend."""
+    return legend(0, views.most_moved, "", MOVED_COLORS, edge) + gallery(
+        outcomes, views.moved, "Movement of the vertices:", words
+    )
+
+
+def ranking(inputs, smoothers):
+    """Bars of the two errors, least first."""
+    rivals_and_input = [*inputs[:1], *smoothers]
+    return section(
+        "All smoothers, ranked",
+        "Shorter is nearer to the truth.",
+        '<div class="pair"><div><h3>Mean angle of the normals to the truth, degrees</h3>',
+        bars(rivals_and_input, "angle", ".2f"),
+        "</div><div><h3>RMS distance to the truth, edge lengths</h3>",
+        bars(rivals_and_input, "rms", ".3f"),
+        "</div></div>",
+    )
+
+
+def smoothing(case, inputs, ranked, views):
+    """Figures, pictures and charts of the smoothers."""
+    known = case.truth_known
+    against = "the truth" if known else "the input"
+    yield section(
+        "Figures",
+        f"Measured against {against}; lengths in mean edge lengths.{' The best of each column in bold.' * known}",
+        figures_table([*inputs[:1], *ranked], against, f"Smoothing filters against {against}"),
+    )
+    yield section(
+        "Close up",
+        "The marked square of the first pictures, all from the same camera and in the same light.",
+        gallery([*inputs, *ranked], views.close_up, "Close-up:", lambda o: text(o.words)),
+    )
+    yield section(
+        f"Distance to {against}",
+        "Red: outside it, blue: inside. An even blue on round parts is shrinking.",
+        legend(-views.most_error, views.most_error, "0", ERROR_COLORS, case.edge),
+        gallery([*inputs[:-1], *ranked], views.error, f"Signed distance to {against}:",
+                lambda o: f"RMS {number(o.figures['rms'], '.3f')}, largest {number(o.figures['largest'])}"),
+    )  # fmt: skip
+    yield section(
+        "How far vertices moved",
+        "From where they were in the input.",
+        movement(ranked, views, case.edge, lambda o: f"RMS {number(o.figures['moved'], '.3f')}, along the surface "
+                                                     f"{number(o.figures['drift'], '.3f')}"),
+    )  # fmt: skip
+    reading = (
+        ", dashed: the truth. The nearer the thick line is to it, the more of the shape was kept." if known else "."
+    )
+    yield section(
+        "Detail by scale",
+        "RMS detail of each level of the pyramid over its wavelength (both in mesh units, logarithmic). Thick: after "
+        f"the filter. Thin: the input{reading}",
+        spectra(ranked, inputs),
+    )
+    yield section(
+        "Shape of the triangles",
+        "Share of triangles by shape, from degenerate (0) to equilateral (1). Filled: the input, line: after the filter.",
+        triangle_shapes(ranked, inputs[0]),
+    )
+
+
+def banding(case, original, bands, views):
+    """The filters of bands."""
+    noiseless = ", without the noise" if case.truth_known else ""
+    return section(
+        "Working on a band of scales",
+        "MeshLab has one filter of this kind, the unsharp mask; the others choose the scales they change. These ran on "
+        f"the mesh itself{noiseless}. No truth says how sharp a mesh should be: the unsharp mask is shown at the "
+        f"setting, of {bands[-1].tried}, that moves vertices as far as Enhance does.",
+        gallery([*original, *bands], views.whole, "Whole view:", lambda o: text(o.words)),
+        gallery([*original, *bands], views.close_up, "Close-up:", lambda o: ""),
+        "<h3>How far vertices moved</h3>",
+        movement(bands, views, case.edge, lambda o: f"RMS {number(o.figures['moved'], '.3f')}"),
+        "<h3>Detail by scale</h3>",
+        spectra(bands, original),
+        figures_table([*original, *bands], "the original", "Filters of bands against the original"),
+    )
+
+
 def page(case, inputs, smoothers, original, bands, up=None, tile=440):
     """The whole page. The four lists are what compare() returns."""
     ours, theirs = rivals(case, smoothers)
-    reference = inputs[-1]  # the truth if there is one
-    views = Views(reference, smoothers, inputs[:-1], up, tile)
-    band_views = Views(original[0], bands, [], up, tile)
-    shown = [*inputs, theirs, ours]
+    views = Views(inputs[-1], smoothers, inputs[:-1], up, tile)  # from the truth if there is one
     ranked = sorted(smoothers, key=lambda o: o.figures["angle"])
-    against = "the truth" if case.truth_known else "the input"
-    given = {o.title: o for o in inputs}
-
-    parts = [hero(case, views, shown)]
-    if case.truth_known:
-        parts.append(section("All smoothers, ranked", "Shorter is nearer to the truth.",
-                             '<div class="pair">', "<div><h3>Mean angle of the normals to the truth, degrees</h3>",
-                             bars([*inputs[:1], *smoothers], "angle", ".2f"), "</div>",
-                             "<div><h3>RMS distance to the truth, edge lengths</h3>",
-                             bars([*inputs[:1], *smoothers], "rms", ".3f"), "</div></div>"))  # fmt: skip
-    parts.append(section("Figures", f"Measured against {against}; lengths in mean edge lengths."
-                         + (" The best of each column in bold." if case.truth_known else ""),
-                         figures_table([*inputs[:1], *ranked], against, f"Smoothing filters against {against}")))  # fmt: skip
-    parts.append(section("Close up", "The marked square of the first pictures, all from the same camera and in the same light.",
-                         gallery([*inputs, *ranked], views.close_up, "Close-up:", lambda o: text(o.words))))  # fmt: skip
-    parts.append(section(
-        f"Distance to {against}", f"Red: outside it, blue: inside. An even blue on round parts is shrinking.",
-        legend(-views.most_error, views.most_error, "0", ERROR_COLORS, case.edge),
-        gallery([*inputs[: len(inputs) - 1], *ranked], views.error, f"Signed distance to {against}:",
-                lambda o: f"RMS {number(o.figures['rms'], '.3f')}, largest {number(o.figures['largest'])}")))  # fmt: skip
-    parts.append(section("How far vertices moved", "From where they were in the input.",
-                         legend(0, views.most_moved, "", MOVED_COLORS, case.edge),
-                         gallery(ranked, views.moved, "Movement of the vertices:",
-                                 lambda o: f"RMS {number(o.figures['moved'], '.3f')}, along the surface {number(o.figures['drift'], '.3f')}")))  # fmt: skip
-    parts.append(section("Detail by scale", "RMS detail of each level of the pyramid over its wavelength (both in mesh units, "
-                         "logarithmic). Thick: after the filter. Thin: the input" + (", dashed: the truth." if case.truth_known else ".")
-                         + (" The nearer the thick line is to the dashed one, the more of the shape was kept." if case.truth_known else ""),
-                         spectra(ranked, list(given.values()))))  # fmt: skip
-    parts.append(section("Shape of the triangles", "Share of triangles by shape, from degenerate (0) to equilateral (1). Filled: the input, line: after the filter.",
-                         triangle_shapes(ranked, inputs[0])))  # fmt: skip
-    noiseless = ", without the noise" if case.truth_known else ""
-    parts.append(section(
-        "Working on a band of scales", f"MeshLab has one filter of this kind, the unsharp mask; the others choose the scales they "
-        f"change. These ran on the mesh itself{noiseless}. No truth says how sharp a mesh should be: the unsharp mask is shown at "
-        f"the setting, of {bands[-1].tried}, that moves vertices as far as Enhance does.",
-        gallery([*original, *bands], band_views.whole, "Whole view:", lambda o: text(o.words)),
-        gallery([*original, *bands], band_views.close_up, "Close-up:", lambda o: ""),
-        "<h3>How far vertices moved</h3>", legend(0, band_views.most_moved, "", MOVED_COLORS, case.edge),
-        gallery(bands, band_views.moved, "Movement of the vertices:", lambda o: f"RMS {number(o.figures['moved'], '.3f')}"),
-        "<h3>Detail by scale</h3>", spectra(bands, original),
-        figures_table([*original, *bands], "the original", "Filters of bands against the original")))  # fmt: skip
-    parts.append(f"<section><h2>How it was done</h2>{how(case, smoothers, bands)}</section>")
-
-    groups = {"input": inputs, "smooth": smoothers, "band": [*original, *bands]}
-    title = headline(case, ours, theirs)
-    return (
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-        '<meta name="viewport" content="width=device-width, initial-scale=1">'
-        f"<title>Smoothing {text(case.name)}: MeshLab and meshlab-multires</title><style>{STYLE}</style></head>\n<body>"
-        f'<header><p class="eyebrow">meshlab-multires beside MeshLab’s own filters · {text(case.name)}, {len(case.vertices):,} vertices</p>'
-        f"<h1>{text(title)}</h1><p>{summary(case, inputs, smoothers)}</p></header>\n<main>"
-        + "\n".join(parts) + f'</main>\n<script type="application/json" id="figures">{as_json(case, groups)}</script></body></html>\n')  # fmt: skip
+    parts = [
+        hero(case, views, [*inputs, theirs, ours]),
+        ranking(inputs, smoothers) if case.truth_known else "",
+        *smoothing(case, inputs, ranked, views),
+        banding(case, original, bands, Views(original[0], bands, [], up, tile)),
+        f"<section><h2>How it was done</h2>{how(case, smoothers, bands)}</section>",
+    ]
+    figures = as_json(case, {"input": inputs, "smooth": smoothers, "band": [*original, *bands]})
+    mesh = text(case.name)
+    return f"""<!DOCTYPE html>
+<html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
+<title>Smoothing {mesh}: MeshLab and meshlab-multires</title><style>{STYLE}</style></head>
+<body><header>
+<p class="eyebrow">meshlab-multires beside MeshLab’s own filters · {mesh}, {len(case.vertices):,} vertices</p>
+<h1>{text(headline(case, ours, theirs))}</h1><p>{summary(case, inputs, smoothers)}</p></header>
+<main>{"".join(parts)}</main>
+<script type="application/json" id="figures">{figures}</script></body></html>
+"""

@@ -43,7 +43,9 @@ class Browser:
 
     def open(self, path, width, height=844):
         """Shows the file in a window of this size, in CSS pixels, as a phone or a screen of that width would."""
-        self._call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600)
+        self._call(
+            "Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=width < 600
+        )
         self._call("Page.navigate", url=pathlib.Path(path).resolve().as_uri())
         self._await("Page.loadEventFired")
 

@@ -22,3 +22,12 @@ def meshes(tmp_path_factory):
     folder = tmp_path_factory.mktemp("meshes")
     subprocess.run([BUILD / "meshes/make_meshes", folder], check=True)
     return folder
+
+
+def load_plugins():
+    """Ours into pymeshlab, if they are not there yet."""
+    import pymeshlab
+
+    if FILTER_IDS[0] not in pymeshlab.filter_list():
+        for plugin in PLUGINS:
+            pymeshlab.load_plugin(str(plugin))

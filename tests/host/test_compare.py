@@ -11,11 +11,12 @@ import numpy as np
 import pymeshlab
 import pytest
 from browser import Browser
-from conftest import BUILD
+from conftest import BUILD, load_plugins
 
 TOOLS = BUILD.parents[1] / "tools"
 sys.path.insert(0, str(TOOLS))
 import measuring  # noqa: E402
+
 OURS = {"Denoise", "Low pass", "Denoise, soft threshold", "Enhance", "Equalizer", "Stop band", "Unsharp (single level)"}
 MESHLAB = {"Laplacian, umbrella", "Laplacian, cotangent", "Taubin", "HC Laplacian", "Two-step",
            "Scale-dependent Laplacian", "Unsharp mask, geometry"}  # fmt: skip
@@ -113,7 +114,7 @@ def angle(v, truth, f):
 
 
 def test_figures_agree_with_a_direct_measurement(mesh, page):
-    measuring.load_plugins(BUILD / "plugins")
+    load_plugins()
     ms = pymeshlab.MeshSet(verbose=False)
     ms.load_new_mesh(str(mesh))
     truth, f = ms.current_mesh().vertex_matrix(), ms.current_mesh().face_matrix()

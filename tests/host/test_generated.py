@@ -6,14 +6,13 @@ import sys
 import numpy as np
 import pymeshlab
 import pytest
-from conftest import BUILD, FILTER_IDS, FILTERS, PLUGINS
+from conftest import BUILD, FILTER_IDS, FILTERS, load_plugins
 
 ROOT = BUILD.parents[1]
 sys.path.insert(0, str(ROOT / "tools"))
 import generate  # noqa: E402
 
-for plugin in PLUGINS:
-    pymeshlab.load_plugin(str(plugin))
+load_plugins()
 EXAMPLES = sorted((ROOT / "examples").glob("*.mlx"))
 TYPES = {"boolean": bool, "integer": int, "real": float, "list": np.ndarray}
 
@@ -61,7 +60,17 @@ def test_every_filter_and_parameter_is_in_the_reference():
         assert '": "' not in part and '"' in part, "no paper is cited"
 
 
-@pytest.mark.parametrize("name", ["README.md", "CONTRIBUTING.md", "docs/denoising.md", "docs/parameters.md", "python/README.md", "examples/README.md"])
+@pytest.mark.parametrize(
+    "name",
+    [
+        "README.md",
+        "CONTRIBUTING.md",
+        "docs/denoising.md",
+        "docs/parameters.md",
+        "python/README.md",
+        "examples/README.md",
+    ],
+)
 def test_links_lead_somewhere(name):
     text = (ROOT / name).read_text()
     for link in re.findall(r"\]\(([^)\s]+)\)|<img src=\"([^\"]+)\"", text):

@@ -148,14 +148,16 @@ def test_types_are_strict(multires, tmp_path):
     done = mypy("src")
     assert done.returncode == 0, done.stdout
     user = tmp_path / "user.py"
-    user.write_text(textwrap.dedent("""
+    user.write_text(
+        textwrap.dedent("""
         import pymeshlab_multires as m
         def use(ms: m._call.MeshSet) -> float:
             m.equalize(ms, {"1-2": 2.0})
             return m.denoise(ms, method="soft threshold").noise
         def misuse(ms: m._call.MeshSet) -> str:
             return m.denoise(ms, method="softish").noise
-    """))
+    """)
+    )
     done = mypy(str(user), MYPYPATH=os.path.dirname(os.path.dirname(multires.__file__)))
     assert done.stdout.count("error:") == 2 and "softish" in done.stdout and '"float"' in done.stdout, done.stdout
 
