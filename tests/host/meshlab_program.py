@@ -5,6 +5,7 @@ Debian's MeshLab 2020.09 looks for plugins only next to itself, so it runs from 
 ours. Where MULTIRES_MESHLAB names the program of a later GUI, that is run instead, with our plugins in the user's folder.
 """
 
+import datetime
 import json
 import os
 import pathlib
@@ -29,15 +30,14 @@ def tree(tmp_path_factory):
     root = tmp_path_factory.mktemp("meshlab")
     if LATER_GUI:
         (root / "bin").mkdir()
-        # The program loads plugins of its own version only, and keeps the user's in a folder named after that.
         (root / "bin/meshlab").symlink_to(LATER_GUI)
-        link(PLUGINS, root / os.environ["MULTIRES_PLUGIN_DIR"])
-        settings = root / "config/VCG"
-        settings.mkdir(parents=True)
-        # No question about statistics at the start, and no look for a newer version.
-        (settings / f"MeshLab_64bit_{os.environ['MULTIRES_PRECISION']}.conf").write_text(
-            "[General]\ncheckForUpdates=false\nlastComunicatedValue=0\nloadedMeshCounter=1\n"
-        )
+        folder = pathlib.PurePath(os.environ["MULTIRES_PLUGIN_DIR"])  # share/VCG/PROGRAM/MeshLabExtraPlugins/VERSION
+        link(PLUGINS, root / ".local" / folder)
+        # No question about statistics at the start, and no look for a newer version (today's has been done).
+        settings = root / "config/VCG" / f"{folder.parts[2]}.conf"
+        settings.parent.mkdir(parents=True)
+        today = datetime.date.today().strftime("%a %b %-d %Y")
+        settings.write_text(f"[General]\ninformativeShown=true\nlastTimeMeshLabVersionCheckedOnStart={today}\n")
         return root
     add_debian_meshlab(root, [*PROBES.glob("*.so"), *PLUGINS])
     return root

@@ -12,12 +12,18 @@ from conftest import BUILD, FILTERS, PLUGINS
 from meshlab_program import add_debian_meshlab, display, runner  # noqa: F401  a fixture
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PRESETS = {"debian-2020.09": "2020.09", "headers-2022.02": "2022.02", "pymeshlab-2025.07": "pymeshlab"}
+PRESETS = {
+    "debian-2020.09": "2020.09",
+    "headers-2022.02": "2022.02",
+    "headers-2025.07": "2025.07",
+    "pymeshlab-2025.07": "pymeshlab",
+}
 VERSION = PRESETS[BUILD.name]
 # Where each host looks, below the prefix that scripts/install.sh takes if none is given.
 FOLDER = {
     "2020.09": "lib/x86_64-linux-gnu/meshlab/plugins",
     "2022.02": "share/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/2022.02",
+    "2025.07": "share/VCG/MeshLab_64bit_fp/MeshLabExtraPlugins/2025.07",
     "pymeshlab": ".",
 }[VERSION]
 

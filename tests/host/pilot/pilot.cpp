@@ -174,6 +174,7 @@ private:
     bool choose(const QString& entry) {
         const QMainWindow* window = main_window();
         if (!window || QApplication::activeModalWidget()) return false;
+        arrange();  // which also makes later versions bring their menus up to date
         QAction* found = nullptr;
         each_entry("", window->menuBar()->actions(), [&](const QString& path, QAction* action) {
             if (path.section('/', -1) == entry && action->isEnabled()) found = action;
