@@ -84,7 +84,7 @@ struct Filter {
     /// Runs the filter with the parameters read from the host.
     std::function<Result(Parameters&, const Layer&, Session&)> run;
 
-    std::vector<Returned> returns;  ///< what the report holds
+    std::vector<Returned> returns = {};  ///< what the report holds
 };
 
 /// Makes a row from an options struct: `defaults` derives it from a layer, `bind` visits its fields, `apply` does it.

@@ -221,7 +221,7 @@ def figures_table(outcomes, against, label):
             shown = number(value, form)
             first = o.ours is not None and key in winner and value == winner[key]
             cells.append(f"<td>{'<b>' if first else ''}{shown}{'</b>' if first else ''}</td>")
-        tried = f" (best of {o.tried})" if o.tried > 1 else ""
+        tried = f" (of {o.tried} tried)" if o.tried > 1 else ""
         rows.append(f'<tr class="{kind(o)}"><th scope="row">{text(name(o))}</th>{"".join(cells)}'
                     f"<td class=words>{text(o.words)}{tried}</td></tr>")  # fmt: skip
     head = "".join(f'<th scope="col">{text(heading)}</th>' for _, heading, _ in COLUMNS)
