@@ -173,7 +173,8 @@ Filter row(const std::string& menu_name, const std::string& python_name, MenuCla
             vertex_color,
             changes,
             nullptr,
-            nullptr};
+            nullptr,
+            {}};
 }
 
 }  // namespace
