@@ -61,6 +61,11 @@ inline void bind_pyramid(Parameters& p, PyramidOptions& o) {
               "Independent sets: each level removes about a quarter of the vertices, none of them neighbours (Roy). "
               "Sequential: one vertex after the other, cheapest first (Guskov).",
               0, 1, true, group});
+    p.choice("storage", o.storage, {"double", "float"},
+             {"Storage",
+              "How the pyramid keeps weights and details. Float takes half the memory, for meshes of many millions of "
+              "vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.",
+              0, 1, true, group});
     p.integer("sets_per_level", o.sets_per_level,
               {"Sets per level", "Independent sets only: how many sets make one level, 1 for the finest levels.", 1,
                100, true, group});

@@ -31,7 +31,9 @@ public:
                  const std::vector<double>& confidence)
         : h_(pyramid.hierarchy()), options_(options), given_(given), deviation_(deviation), confidence_(confidence),
           gains_(noise_gains(h_, pyramid.transform())), coefficients_(pyramid.coefficients()),
-          local_(options.pyramid.scheme == Scheme::guskov) {}
+          local_(options.pyramid.scheme == Scheme::guskov) {
+        for (Coefficients::Detail& d : coefficients_.detail) d = widened(d, 3);
+    }
 
     Positions run(const KeptPyramid& pyramid) {
         const int last = std::min(options_.coarsest_level, static_cast<int>(coefficients_.detail.size()));

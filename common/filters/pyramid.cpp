@@ -1,6 +1,7 @@
 #include "filters/pyramid.h"
 
 #include "measure/measure.h"
+#include "measure/reduce.h"
 #include "mesh/adjacency.h"
 #include "mesh/validation.h"
 #include "parallel/parallel.h"
@@ -41,6 +42,7 @@ RelaxationTransformOptions transform_options(const PyramidOptions& o) {
     t.scheme = o.scheme;
     t.relaxation.op = o.op;
     t.presmooth = o.presmooth;
+    t.weights = o.storage;
     return t;
 }
 
@@ -64,6 +66,12 @@ struct LengthSum {
     }
     double mean() const { return count ? sum / static_cast<double>(count) : 0; }
 };
+
+/// Only the weights are made of flaps.
+void release_flaps(Hierarchy& h) {
+    for (Level& level : h.levels) level.odd.flap = level.even.flap = Array<Index>();
+    h.base.flap = Array<Index>();
+}
 
 /// Twice the mean edge length of every level.
 std::vector<double> wavelengths(const Hierarchy& h, const Faces& faces) {
@@ -98,7 +106,9 @@ std::vector<double> wavelengths(const Hierarchy& h, const Faces& faces) {
     return out;
 }
 
-double rms_length(const Coefficients::Detail& d) {
+double rms_length(const Coefficients::Detail& stored) {
+    const Coefficients::Detail wide = stored.odd_single.empty() ? Coefficients::Detail() : widened(stored, 3);
+    const Coefficients::Detail& d = stored.odd_single.empty() ? stored : wide;
     double sum = 0;
     for (const Field* f : {&d.odd, &d.even})
         for (Index r = 0; r < f->rows(); ++r) {
@@ -173,6 +183,7 @@ ContentHash content_hash(const Layer& layer, const PyramidOptions& o) {
                               static_cast<double>(o.base_vertices),
                               o.length_weight,
                               o.normal_limit,
+                              static_cast<double>(o.storage),
                               static_cast<double>(o.features),
                               o.features == Features::angle ? o.feature_angle : 0,
                               static_cast<double>(o.seed)};
@@ -201,9 +212,28 @@ KeptPyramid::KeptPyramid(const Layer& layer, const PyramidOptions& options, cons
     progress.report(0.6, "Computing weights");
     transform_ = relaxation_transform(hierarchy_, transform_options(options));
     progress.report(0.8, "Computing details");
-    coefficients_ = transform_->analyse(to_places(hierarchy_, field_of(layer.mesh.positions)));
+    release_flaps(hierarchy_);
+    coefficients_ = transform_->analyse(field_of(hierarchy_.positions), options.storage);
     levels_ = describe(hierarchy_, coefficients_, layer.mesh.faces);
     progress.report(1, "Pyramid built");
+}
+
+double KeptPyramid::reconstruction_error() const {
+    struct Largest {
+        double square = 0;
+        Largest& operator+=(const Largest& o) {
+            square = std::max(square, o.square);
+            return *this;
+        }
+    };
+    const Field back = transform_->synthesise(coefficients_);
+    const auto largest = chunked_reduce<Largest>(back.rows(), [&](std::size_t begin, std::size_t end) {
+        Largest part;
+        for (std::size_t p = begin; p < end; ++p)
+            part += {(hierarchy_.positions[p] - Vec3(back.row(static_cast<Index>(p)))).squaredNorm()};
+        return part;
+    });
+    return std::sqrt(largest.square);
 }
 
 Positions KeptPyramid::synthesise(const std::vector<double>& gain) const {
@@ -244,8 +274,7 @@ Result compute_pyramid(const Layer& layer, const ComputePyramidOptions& options,
     result.report.add("vertices", vertices);
     result.report.add("wavelength", wavelength, "mesh units");
     result.report.add("rms_detail", rms_detail, "mesh units");
-    const Positions back = pyramid->synthesise({});
-    result.report.add("reconstruction_error", displacement(layer.mesh.positions, back).largest, "mesh units");
+    result.report.add("reconstruction_error", pyramid->reconstruction_error(), "mesh units");
     report_counts(count_input(layer.mesh), result.report);
     return result;
 }

@@ -21,12 +21,13 @@ struct PyramidOptions {
     Operator op = Operator::second_difference_flaps;
     double presmooth = 0.5;  ///< share of the relaxation applied before subsampling, in [0, 1]
     Grouping grouping = Grouping::independent_sets;
-    int sets_per_level = 1;      ///< >= 1, for independent sets
-    double level_ratio = 0;      ///< in [0, 1), for sequential; 0: one vertex per level
-    int base_vertices = 100;     ///< >= 4
-    double length_weight = 0.1;  ///< >= 0, see HierarchyOptions
-    double normal_limit = 60;    ///< degrees, in (0, 180]
-    int seed = 0;                ///< 0: cheapest collapses first; others vary the order, for averaging
+    int sets_per_level = 1;           ///< >= 1, for independent sets
+    double level_ratio = 0;           ///< in [0, 1), for sequential; 0: one vertex per level
+    int base_vertices = 100;          ///< >= 4
+    double length_weight = 0.1;       ///< >= 0, see HierarchyOptions
+    double normal_limit = 60;         ///< degrees, in (0, 180]
+    Storage storage = Storage::wide;  ///< of weights and details
+    int seed = 0;                     ///< 0: cheapest collapses first; others vary the order, for averaging
     Features features = Features::none;
     double feature_angle = 40;  ///< degrees, in (0, 180), for Features::angle
 };
@@ -43,12 +44,16 @@ class KeptPyramid {
 public:
     KeptPyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress);
 
+    /// Without flaps.
     const Hierarchy& hierarchy() const { return hierarchy_; }
     const Transform& transform() const { return *transform_; }
-    const Coefficients& coefficients() const { return coefficients_; }
+    const Coefficients& coefficients() const { return coefficients_; }  ///< see widened()
     /// Levels 0..L: one more than there are sets of details; the last is the base.
     const std::vector<LevelInfo>& levels() const { return levels_; }
     const ContentHash& hash() const { return hash_; }
+
+    /// Largest distance between the input's vertices and what synthesis without any gain gives, mesh units.
+    double reconstruction_error() const;
 
     /// Positions with the details of each level multiplied by a gain, in order of the input.
     Positions synthesise(const std::vector<double>& gain) const;

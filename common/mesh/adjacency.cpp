@@ -15,8 +15,8 @@ struct Wedge {
 
 /// All wedges of all vertices in compressed rows.
 struct Wedges {
-    std::vector<Index> offset;
-    std::vector<Wedge> wedge;
+    Array<Index> offset;
+    Array<Wedge> wedge;
 };
 
 bool repeats(const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
@@ -30,7 +30,7 @@ Wedges collect_wedges(const Mesh& mesh) {
             for (const Index v : f) ++w.offset[v + 1];
     for (std::size_t i = 0; i < n; ++i) w.offset[i + 1] += w.offset[i];
     w.wedge.resize(w.offset[n]);
-    std::vector<Index> next(w.offset.begin(), w.offset.end() - 1);
+    Array<Index> next(w.offset.begin(), w.offset.end() - 1);
     for (const Face& f : mesh.faces)
         if (!repeats(f))
             for (int k = 0; k < 3; ++k) w.wedge[next[f[k]]++] = {f[(k + 1) % 3], f[(k + 2) % 3]};

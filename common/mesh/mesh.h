@@ -17,7 +17,7 @@ using Index = std::int32_t;
 using Vec3 = Eigen::Vector3d;
 using Positions = Array<Vec3>;      ///< #V by 3, mesh units
 using Face = std::array<Index, 3>;  ///< three indices into the positions
-using Faces = std::vector<Face>;    ///< #F by 3
+using Faces = Array<Face>;          ///< #F by 3
 
 /// A triangle mesh. Nothing is promised of the faces but that their indices are valid: they may repeat, share
 /// edges more than twice, be degenerate or leave vertices unreferenced.

@@ -20,7 +20,7 @@ inline std::vector<Index> sorted_by_key(std::vector<Index> indices, const Array<
         std::uint32_t key;
         Index index;
     };
-    std::vector<Item> items(indices.size()), other(indices.size());
+    Array<Item> items(indices.size()), other(indices.size());
     std::array<std::array<Index, buckets>, passes> count{};
     for (std::size_t i = 0; i < indices.size(); ++i) {
         items[i] = {key[indices[i]], indices[i]};

@@ -14,6 +14,7 @@ struct Stencil {
     RingWeights ring;
     Rows rows;
     bool own = false;
+    Array<float> single;  ///< Storage::single: the weights, instead of those of `ring` or `rows`
 
     const Array<Index>& offset() const { return own ? rows.offset : rings->offset; }
     const Array<Index>& column() const { return own ? rows.column : rings->neighbor; }
@@ -21,14 +22,19 @@ struct Stencil {
     const std::vector<Index>& kept() const { return own ? rows.kept : ring.kept; }
 };
 
-Stencil make_stencil(const Rings& rings, const Positions& positions, const RelaxationOptions& options) {
+Stencil make_stencil(const Rings& rings, const Positions& positions, const RelaxationTransformOptions& options) {
     Stencil s;
     s.rings = &rings;
-    s.own = uses_flaps(options.op);
+    s.own = uses_flaps(options.relaxation.op);
     if (s.own)
-        s.rows = relaxation(rings, positions, options);
+        s.rows = relaxation(rings, positions, options.relaxation);
     else
-        s.ring = ring_weights(rings, positions, options);
+        s.ring = ring_weights(rings, positions, options.relaxation);
+    if (options.weights == Storage::single) {
+        Array<double>& weight = s.own ? s.rows.weight : s.ring.weight;
+        s.single.assign(weight.begin(), weight.end());
+        weight = Array<double>();
+    }
     return s;
 }
 
@@ -39,21 +45,45 @@ struct Sums {
     const Index* offset = s.offset().data();
     const Index* column = s.column().data();
     const double* weight = s.weight().data();
+    const float* single = s.single.data();
 
     void row(Index r, const Field& f, double* out) const {
-        if constexpr (Width > 0) {
-            double sum[Width] = {};
-            for (Index k = offset[r]; k < offset[r + 1]; ++k) {
-                const double* v = f.values.data() + static_cast<std::size_t>(column[k]) * Width;
-                for (int c = 0; c < Width; ++c) sum[c] += weight[k] * v[c];
-            }
-            for (int c = 0; c < Width; ++c) out[c] = sum[c];
-        } else {
-            std::fill_n(out, f.width, 0.0);
-            for (Index k = offset[r]; k < offset[r + 1]; ++k) {
-                const double* v = f.row(column[k]);
-                for (int c = 0; c < f.width; ++c) out[c] += weight[k] * v[c];
-            }
+        if (s.single.empty())
+            add(r, f, out);
+        else
+            add_single(r, f, out);
+    }
+
+private:
+    int width(const Field& f) const { return Width > 0 ? Width : f.width; }
+    const double* at(const Field& f, Index k) const {
+        return f.values.data() + static_cast<std::size_t>(column[k]) * width(f);
+    }
+
+    void add(Index r, const Field& f, double* out) const {
+        const int w = width(f);
+        double local[Width > 0 ? Width : 1] = {};
+        double* const sum = Width > 0 ? local : out;
+        std::fill_n(sum, w, 0.0);
+        for (Index k = offset[r]; k < offset[r + 1]; ++k) {
+            const double* v = at(f, k);
+            for (int c = 0; c < w; ++c) sum[c] += weight[k] * v[c];
+        }
+        if (Width > 0) std::copy_n(local, w, out);
+    }
+
+    /// Rounded weights do not sum to 1; used as differences to the first value, they need not.
+    void add_single(Index r, const Field& f, double* out) const {
+        const int w = width(f);
+        if (offset[r] == offset[r + 1]) {
+            std::fill_n(out, w, 0.0);
+            return;
+        }
+        const double* first = at(f, offset[r]);
+        std::copy_n(first, w, out);
+        for (Index k = offset[r] + 1; k < offset[r + 1]; ++k) {
+            const double* v = at(f, k);
+            for (int c = 0; c < w; ++c) out[c] += static_cast<double>(single[k]) * (v[c] - first[c]);
         }
     }
 };
@@ -85,17 +115,18 @@ class RelaxationTransform final : public Transform {
 public:
     RelaxationTransform(const Hierarchy& h, const RelaxationTransformOptions& options) : h_(h), options_(options) {
         for (const Level& level : h.levels) {
-            odd_.push_back(make_stencil(level.odd, h.positions, options.relaxation));
-            even_.push_back(make_stencil(level.even, h.positions, options.relaxation));
+            odd_.push_back(make_stencil(level.odd, h.positions, options));
+            even_.push_back(make_stencil(level.even, h.positions, options));
         }
     }
 
-    Coefficients analyse(const Field& input) const override {
+    Coefficients analyse(const Field& input, Storage storage) const override {
         Coefficients out;
         Field f = input;
         for (std::size_t k = 0; k < h_.levels.size(); ++k) {
             out.detail.emplace_back();
             analyse_level(k, f, out.detail.back());
+            if (storage == Storage::single) narrow(out.detail.back());
         }
         f.values.shrink_to_fit();
         out.base = std::move(f);
@@ -107,7 +138,7 @@ public:
         Field f = coefficients.base;
         f.values.reserve(static_cast<std::size_t>(h_.size[to_level]) * f.width);
         for (std::size_t k = h_.levels.size(); k-- > to_level;)
-            synthesise_level(k, coefficients.detail[k], gain.empty() ? 1 : gain[k], f);
+            synthesise_stored(k, coefficients.detail[k], gain.empty() ? 1 : gain[k], f);
         return f;
     }
 
@@ -127,6 +158,19 @@ private:
         return options_.scheme == Scheme::guskov && options_.local_frames && f.has_positions && f.width >= 3;
     }
 
+    static void narrow(Coefficients::Detail& d) {
+        d.odd_single.assign(d.odd.values.begin(), d.odd.values.end());
+        d.even_single.assign(d.even.values.begin(), d.even.values.end());
+        d.odd.values = d.even.values = Array<double>();
+    }
+
+    void synthesise_stored(std::size_t k, const Coefficients::Detail& d, double gain, Field& f) const {
+        if (d.odd_single.empty() && d.even_single.empty())
+            synthesise_level(k, d, gain, f);
+        else
+            synthesise_level(k, widened(d, f.width), gain, f);
+    }
+
     /// From values of the fine level to those of the coarse one, in place; stores the details. Touches only the rows
     /// that the level has: with one vertex per level there are few.
     void analyse_level(std::size_t k, Field& f, Coefficients::Detail& d) const {
@@ -134,11 +178,11 @@ private:
         const int width = f.width;
         const auto even_vertex = [&](Index r) { return level.even.vertex(r); };
         // The details start as the values themselves, while f becomes g of the header.
-        d.odd = Field(level.odd.rows(), width);
-        d.even = Field(level.even.rows(), width);
+        d.odd = Field::unset(level.odd.rows(), width);
+        d.even = Field::unset(level.even.rows(), width);
         parallel_for(d.odd.rows(), [&](Index r) { std::copy_n(f.row(level.coarse + r), width, d.odd.row(r)); });
         parallel_for(d.even.rows(), [&](Index r) { std::copy_n(f.row(even_vertex(r)), width, d.even.row(r)); });
-        Field relaxed(level.even.rows(), width);
+        Field relaxed = Field::unset(level.even.rows(), width);
         if (options_.presmooth > 0) {
             relax_rows(even_[k], f, relaxed, even_vertex);
             parallel_for(level.even.rows(), [&](Index r) {
@@ -168,7 +212,7 @@ private:
         const bool guskov = options_.scheme == Scheme::guskov;
         f.values.resize(static_cast<std::size_t>(level.fine) * width);
         // Guskov predicts even vertices from predicted odd ones; the odd ones' own values wait until that is done.
-        Field odd(guskov ? level.odd.rows() : 0, width);
+        Field odd = Field::unset(guskov ? level.odd.rows() : 0, width);
         predict_odd(k, f, [&](Index r, const double* predicted, const Frame* frame) {
             double* at = f.row(level.coarse + r);
             double value[max_width];
@@ -178,7 +222,7 @@ private:
             std::copy_n(guskov ? predicted : to, width, at);
             if (guskov) std::copy_n(to, width, odd.row(r));
         });
-        Field relaxed(level.even.rows(), width);
+        Field relaxed = Field::unset(level.even.rows(), width);
         relax_rows(even_[k], f, relaxed, [&](Index r) { return level.even.vertex(r); });
         const bool frames = framed(f);
         if (frames) {  // in place: frames need the old values of all

@@ -21,6 +21,7 @@ struct RelaxationTransformOptions {
     /// place, in [0, 1]. 0: none, as in both papers; 1 keeps fine bands from aliasing into coarse ones.
     double presmooth = 0;
     bool local_frames = true;  ///< only Scheme::guskov has them
+    Storage weights = Storage::wide;
 };
 
 /// Pyramid after Burt and Adelson whose subdivision is a relaxation operator R. With f the values of a level:

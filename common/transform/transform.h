@@ -17,6 +17,13 @@ struct Field {
 
     Field() = default;
     Field(Index rows, int w) : width(w), values(static_cast<std::size_t>(rows) * w, 0.0) {}
+    /// Values to be set by the caller.
+    static Field unset(Index rows, int w) {
+        Field f;
+        f.width = w;
+        f.values.resize(static_cast<std::size_t>(rows) * w);
+        return f;
+    }
     Index rows() const { return static_cast<Index>(values.size() / width); }
     double* row(Index r) { return values.data() + static_cast<std::size_t>(r) * width; }
     const double* row(Index r) const { return values.data() + static_cast<std::size_t>(r) * width; }
@@ -29,10 +36,19 @@ struct Coefficients {
         Field even;  ///< aligned with Level::even; no rows in critically sampled schemes
         /// 1 for rows whose channels 0..2 are in a local frame; empty if none is.
         std::vector<std::uint8_t> odd_framed, even_framed;
+        /// Storage::single: the values of `odd` and `even`, whose own are empty; see widened().
+        Array<float> odd_single{}, even_single{};
     };
     Field base;                  ///< at places 0..size.back()-1
     std::vector<Detail> detail;  ///< details[k] belongs to levels[k]; 0 is the finest
 };
+
+/// How weights and details are kept: as double, or as float in half the memory. Float weights are no less exact ways
+/// to predict, so inversion stays exact to rounding; float details invert to 6e-8 of their length.
+enum class Storage { wide, single };
+
+/// A detail with its values in `odd` and `even`, however it is stored.
+Coefficients::Detail widened(const Coefficients::Detail& detail, int width);
 
 /// Splits any channels into a coarse part and details over a hierarchy, and puts them together again.
 ///
@@ -43,7 +59,8 @@ public:
     virtual ~Transform() = default;
 
     /// @param f  #V rows in order of places; see Field::has_positions
-    virtual Coefficients analyse(const Field& f) const = 0;
+    /// @param storage  of the details
+    virtual Coefficients analyse(const Field& f, Storage storage = Storage::wide) const = 0;
 
     /// @param gain  one factor per level for its details, finest first; empty: all 1
     /// @param level  where to stop: 0 is the input's level, the number of levels gives the base back
