@@ -122,10 +122,11 @@ Result unsharp(const Layer& layer, const UnsharpOptions& options, Session& sessi
     RelaxationOptions relaxation_options;
     relaxation_options.op = options.op;
     const Rows rows = relaxation(rings, mesh.positions, relaxation_options);
-    Positions smooth = mesh.positions;
+    Positions smooth = mesh.positions, next = smooth;
     for (int i = 0; i < options.iterations; ++i) {
         session.progress.report(0.2 + 0.7 * i / options.iterations, "Relaxing");
-        smooth = relaxed(rings, rows, smooth);
+        relax(rings, rows, smooth, next);
+        smooth.swap(next);
     }
     session.progress.report(0.9, "Measuring the change");
     Positions after = mesh.positions;

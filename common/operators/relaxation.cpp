@@ -4,6 +4,7 @@
 #include "parallel/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <unordered_map>
@@ -62,16 +63,29 @@ std::vector<Index> for_rows(Index rows, const RelaxationOptions& options, const 
     return all;
 }
 
-Positions relaxed(const Rings& rings, const Array<Index>& offset, const Array<Index>& column,
-                  const Array<double>& weight, const std::vector<Index>& kept, const Positions& f) {
-    Positions result(f);
+/// Sum of a row. Rows of up to 8 entries, nearly all, take 8 steps without a branch: what lies beyond the end of the
+/// row counts 0. A loop over 5, 6 or 7 entries is mispredicted at nearly every row, which costs more than the sums.
+Vec3 row_sum(const Index* column, const double* weight, Index size, Index readable, const Positions& f) {
+    constexpr Index few = 8;
+    static constexpr std::array<double, 2 * few> counts = {1, 1, 1, 1, 1, 1, 1, 1};
+    Vec3 sum = Vec3::Zero();
+    if (size <= few && readable >= few) {
+        const double* const count = counts.data() + few - size;
+        for (Index k = 0; k < few; ++k) sum += (count[k] * weight[k]) * f[column[k]];
+    } else {
+        for (Index k = 0; k < size; ++k) sum += weight[k] * f[column[k]];
+    }
+    return sum;
+}
+
+void relax(const Rings& rings, const Array<Index>& offset, const Array<Index>& column, const Array<double>& weight,
+           const std::vector<Index>& kept, const Positions& f, Positions& out) {
+    const Index entries = static_cast<Index>(weight.size());
     parallel_for(rings.rows(), [&](Index r) {
-        Vec3 sum = Vec3::Zero();
-        for (Index k = offset[r]; k < offset[r + 1]; ++k) sum += weight[k] * f[column[k]];
-        result[rings.vertex(r)] = sum;
+        const Index at = offset[r];
+        out[rings.vertex(r)] = row_sum(column.data() + at, weight.data() + at, offset[r + 1] - at, entries - at, f);
     });
-    for (const Index r : kept) result[rings.vertex(r)] = f[rings.vertex(r)];
-    return result;
+    for (const Index r : kept) out[rings.vertex(r)] = f[rings.vertex(r)];
 }
 
 }  // namespace
@@ -252,12 +266,24 @@ Rows relaxation(const Rings& rings, const Positions& positions, const Relaxation
     return rows;
 }
 
+void relax(const Rings& rings, const RingWeights& weights, const Positions& f, Positions& out) {
+    relax(rings, rings.offset, rings.neighbor, weights.weight, weights.kept, f, out);
+}
+
+void relax(const Rings& rings, const Rows& rows, const Positions& f, Positions& out) {
+    relax(rings, rows.offset, rows.column, rows.weight, rows.kept, f, out);
+}
+
 Positions relaxed(const Rings& rings, const RingWeights& weights, const Positions& f) {
-    return relaxed(rings, rings.offset, rings.neighbor, weights.weight, weights.kept, f);
+    Positions out = f;
+    relax(rings, weights, f, out);
+    return out;
 }
 
 Positions relaxed(const Rings& rings, const Rows& rows, const Positions& f) {
-    return relaxed(rings, rows.offset, rows.column, rows.weight, rows.kept, f);
+    Positions out = f;
+    relax(rings, rows, f, out);
+    return out;
 }
 
 }  // namespace multires

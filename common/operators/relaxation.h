@@ -104,6 +104,11 @@ Rows relaxation(const Rings& rings, const Positions& positions, const Relaxation
 Positions relaxed(const Rings& rings, const RingWeights& weights, const Positions& f);
 Positions relaxed(const Rings& rings, const Rows& rows, const Positions& f);
 
+/// The same into an array that holds values already: only vertices with a row are written. For many steps in turn.
+/// @param out  #V by 3, not f itself
+void relax(const Rings& rings, const RingWeights& weights, const Positions& f, Positions& out);
+void relax(const Rings& rings, const Rows& rows, const Positions& f, Positions& out);
+
 /// Makes one row at a time, for callers that have no Rings of a whole level. Holds scratch memory that grows with the
 /// largest ring seen: reuse it, one object per thread.
 class RowRelaxation {

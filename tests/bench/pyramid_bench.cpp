@@ -73,7 +73,8 @@ void ContentHash(benchmark::State& state) {
 }
 
 // Second argument: 0 Roy with cotangent weights, 1 the default (Guskov, second differences with flaps, presmoothed).
-#define SIZES(mode) Args({48485, mode})->Args({1000000, mode})->Unit(benchmark::kMillisecond)->UseRealTime()
+#define SIZES(mode)                                                                                                    \
+    Args({48485, mode})->Args({1000000, mode})->Args({10000000, mode})->Unit(benchmark::kMillisecond)->UseRealTime()
 BENCHMARK(Rings)->SIZES(1);
 BENCHMARK(HierarchyOnly)->SIZES(0)->SIZES(1);
 BENCHMARK(WholePyramid)->SIZES(0)->SIZES(1);
