@@ -275,7 +275,7 @@ Result compute_pyramid(const Layer& layer, const ComputePyramidOptions& options,
     result.report.add("wavelength", wavelength, "mesh units");
     result.report.add("rms_detail", rms_detail, "mesh units");
     result.report.add("reconstruction_error", pyramid->reconstruction_error(), "mesh units");
-    report_counts(count_input(layer.mesh), result.report);
+    report_counts(count_input(layer.mesh, pyramid->hierarchy().irregular), result.report);
     return result;
 }
 

@@ -234,12 +234,11 @@ void require_extent(const Positions& positions) {
 
 }  // namespace
 
-InputCounts count_input(const Mesh& mesh, const Rings& rings) {
+InputCounts count_input(const Mesh& mesh, Index irregular) {
     InputCounts counts;
     counts.vertices = static_cast<Index>(mesh.positions.size());
     counts.faces = static_cast<Index>(mesh.faces.size());
-    counts.non_manifold_vertices =
-        static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::irregular));
+    counts.non_manifold_vertices = irregular;
     const std::array<std::function<void()>, 4> parts = {
         [&] { count_edges(mesh, counts); },
         [&] { count_vertices(mesh, counts); },
@@ -252,7 +251,10 @@ InputCounts count_input(const Mesh& mesh, const Rings& rings) {
     return counts;
 }
 
-InputCounts count_input(const Mesh& mesh) { return count_input(mesh, vertex_rings(mesh)); }
+InputCounts count_input(const Mesh& mesh) {
+    const Rings rings = vertex_rings(mesh);
+    return count_input(mesh, static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::irregular)));
+}
 
 void require_usable(const Mesh& mesh) {
     if (mesh.positions.empty()) throw InputError("The mesh is empty: it has no vertices.");

@@ -27,7 +27,7 @@ struct InputCounts {
 /// @param mesh   face indices in range
 /// @param rings  its vertex_rings()
 /// Cost: linear in the mesh for bounded valences.
-InputCounts count_input(const Mesh& mesh, const Rings& rings);
+InputCounts count_input(const Mesh& mesh, Index irregular);
 InputCounts count_input(const Mesh& mesh);
 
 /// Does nothing if filters can work on the mesh.
