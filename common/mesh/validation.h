@@ -24,8 +24,8 @@ struct InputCounts {
 };
 
 /// Counts what is unusual.
-/// @param mesh   face indices in range
-/// @param rings  its vertex_rings()
+/// @param mesh       face indices in range
+/// @param irregular  how many of its vertex_rings() are RingKind::irregular, if that is known
 /// Cost: linear in the mesh for bounded valences.
 InputCounts count_input(const Mesh& mesh, Index irregular);
 InputCounts count_input(const Mesh& mesh);
