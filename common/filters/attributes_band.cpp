@@ -29,8 +29,8 @@ std::pair<Band, double> band_and_gain(const AttributeBandOptions& o) {
 }  // namespace
 
 Result filter_attribute_bands(const Layer& layer, const AttributeBandOptions& options, Session& session) {
+    require_usable(layer.mesh);  // before a default that could not be derived from the mesh is blamed
     const auto [band, gain] = band_and_gain(options);
-    require_usable(layer.mesh);
     const std::vector<Channels> all = vertex_channels(layer, options.what, options.linear_light);
     Result result;
     const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);

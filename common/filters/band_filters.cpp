@@ -37,6 +37,7 @@ Result filter_bands(const Layer& layer, const Options& options, Session& session
 }  // namespace
 
 Result low_pass(const Layer& layer, const LowPassOptions& options, Session& session) {
+    require_usable(layer.mesh);  // before a default that could not be derived from the mesh is blamed
     Band band;
     band.unit = options.unit;
     band.softness = options.softness;

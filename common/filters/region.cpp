@@ -53,6 +53,8 @@ void blend(const Positions& before, const std::vector<double>& weights, Position
 }
 
 void report_change(const Layer& layer, const Positions& after, Report& report) {
+    if (!std::all_of(after.begin(), after.end(), [](const Vec3& p) { return p.allFinite(); }))
+        throw InputError("The result would have coordinates that are not finite: use smaller gains or fewer steps.");
     const Change c = compare(layer.mesh.faces, layer.mesh.positions, after);
     report.add("largest_displacement", c.displacement.largest, "mesh units");
     report.add("rms_displacement", c.displacement.rms, "mesh units");

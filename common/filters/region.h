@@ -18,6 +18,7 @@ std::vector<double> region_weights(const Layer& layer, const Region& region);
 void blend(const Positions& before, const std::vector<double>& weights, Positions& after);
 
 /// Adds to a report what moved: largest and RMS displacement, volume, area, flipped faces.
+/// @throws InputError if `after` is not finite
 void report_change(const Layer& layer, const Positions& after, Report& report);
 
 }  // namespace multires

@@ -17,7 +17,8 @@ namespace multires {
 /// what a class derived from vcg::tri::TriMesh adds.
 /// @return names of the custom attributes that could not be copied
 /// @throws std::invalid_argument  if `target` is not empty or `derived` has indices out of range or arrays of
-///                                wrong size; `target` is unchanged then
+///                                wrong size; `target` is unchanged then, as it is after
+/// @throws InputError             for positions that are not finite in the mesh's precision
 /// Cost: linear.
 template <class M>
 std::vector<std::string> build_derived(M& target, const M& source, const VcgLayer& flat, const DerivedMesh& derived);
@@ -26,7 +27,8 @@ std::vector<std::string> build_derived(M& target, const M& source, const VcgLaye
 
 namespace vcg_detail {
 
-inline void check_derived(const Mesh& mesh, const DerivedMesh& derived) {
+template <class Scalar>
+void check_derived(const Mesh& mesh, const DerivedMesh& derived) {
     const auto in = [](Index i, std::size_t n) { return i >= 0 && static_cast<std::size_t>(i) < n; };
     for (Index v : derived.source_vertex) require(in(v, mesh.positions.size()), "source vertex out of range");
     for (Index f : derived.source_face) require(in(f, mesh.faces.size()), "source face out of range");
@@ -35,6 +37,7 @@ inline void check_derived(const Mesh& mesh, const DerivedMesh& derived) {
     require(derived.source_face.size() == derived.faces.size(), "as many source faces as faces are needed");
     require(!derived.positions || derived.positions->size() == derived.source_vertex.size(),
             "as many positions as vertices are needed");
+    if (derived.positions) require_finite_as<Scalar>(*derived.positions);
 }
 
 // vector_ocf containers have a switch per optional component, plain vectors have none.
@@ -189,7 +192,7 @@ std::vector<std::string> build_customs(M& target, const M& source, const VcgLaye
 template <class M>
 std::vector<std::string> build_derived(M& target, const M& source, const VcgLayer& flat, const DerivedMesh& derived) {
     vcg_detail::require(target.vert.empty() && target.face.empty(), "the mesh to be filled is not empty");
-    vcg_detail::check_derived(flat.layer.mesh, derived);
+    vcg_detail::check_derived<typename M::ScalarType>(flat.layer.mesh, derived);
 
     vcg_detail::enable_components(target, source);
     vcg_detail::build_vertices(target, source, flat, derived);

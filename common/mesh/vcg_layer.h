@@ -45,11 +45,17 @@ std::vector<std::string> custom_attribute_names(const M& mesh);
 template <class M>
 VcgLayer to_layer(const M& mesh, const AttributeRequest& request = {});
 
+/// Checks that `changes` can be written to `mesh`: write() then cannot fail.
+/// @throws InputError             for positions that are not finite in the mesh's precision
+/// @throws std::invalid_argument  for wrong sizes, or attributes the mesh does not have
+/// Cost: linear.
+template <class M>
+void check_changes(const M& mesh, const VcgLayer& flat, const LayerChanges& changes);
+
 /// Writes `changes` into the mesh `flat` was made from: all of them, or nothing if it throws. Nothing else of the mesh
 /// changes: bounding box and normals are the caller's to update. Colours are rounded to the nearest integer and
 /// clamped to 0..255, here and nowhere else; texture coordinates of vertices keep their texture index.
-/// @throws std::invalid_argument  for wrong sizes, attributes the mesh does not have, positions that are not finite
-///                                in the mesh's precision
+/// @throws as check_changes
 /// Cost: linear.
 template <class M>
 void write(M& mesh, const VcgLayer& flat, const LayerChanges& changes);
@@ -158,6 +164,14 @@ void copy_attributes(const M& mesh, const AttributeRequest& request, VcgLayer& o
     }
 }
 
+/// Throws unless the positions are finite in the precision they are to be written in.
+template <class Scalar>
+void require_finite_as(const Positions& positions) {
+    for (const Vec3& p : positions)
+        if (!p.template cast<Scalar>().allFinite())
+            throw InputError("The result would have coordinates that are not finite: nothing was changed.");
+}
+
 /// Texture coordinates of all corners of the host's faces, 3 #F.
 template <class M>
 std::vector<Wedge> gather_wedges(const M& mesh, const std::vector<Index>& host_face) {
@@ -192,26 +206,6 @@ void check_attribute(const M& mesh, const VcgLayer& flat, const Attribute& a) {
         visit<typename M::VertContainer>(*custom, LayerTypes(),
                                          [&](auto& data) { expected = width<ValueOf<decltype(data)>>; });
     require(a.width == expected, "no such custom attribute");
-}
-
-template <class M>
-void check_changes(const M& mesh, const VcgLayer& flat, const LayerChanges& changes) {
-    using Scalar = typename M::ScalarType;
-    const std::size_t n = flat.host_vertex.size();
-    for (Index i : flat.host_vertex)
-        require(i >= 0 && static_cast<std::size_t>(i) < mesh.vert.size(), "the mesh changed since it was read");
-    if (changes.positions) {
-        require(changes.positions->size() == n, "positions of wrong size");
-        for (const Vec3& p : *changes.positions)
-            require(p.template cast<Scalar>().allFinite(), "the result has coordinates that are not finite");
-    }
-    if (changes.quality)
-        require(changes.quality->size() == n && vcg::tri::HasPerVertexQuality(mesh), "quality of wrong size");
-    if (changes.attributes)
-        for (const Attribute& a : *changes.attributes) check_attribute(mesh, flat, a);
-    if (changes.wedges)
-        require(changes.wedges->size() == 3 * flat.host_face.size() && vcg::tri::HasPerWedgeTexCoord(mesh),
-                "wedge texture coordinates of wrong size");
 }
 
 template <class M>
@@ -290,9 +284,30 @@ VcgLayer to_layer(const M& mesh, const AttributeRequest& request) {
 }
 
 template <class M>
+void check_changes(const M& mesh, const VcgLayer& flat, const LayerChanges& changes) {
+    using vcg_detail::require;
+    const std::size_t n = flat.host_vertex.size();
+    for (Index i : flat.host_vertex)
+        require(i >= 0 && static_cast<std::size_t>(i) < mesh.vert.size(), "the mesh changed since it was read");
+    for (Index i : flat.host_face)
+        require(i >= 0 && static_cast<std::size_t>(i) < mesh.face.size(), "the mesh changed since it was read");
+    if (changes.positions) {
+        require(changes.positions->size() == n, "positions of wrong size");
+        vcg_detail::require_finite_as<typename M::ScalarType>(*changes.positions);
+    }
+    if (changes.quality)
+        require(changes.quality->size() == n && vcg::tri::HasPerVertexQuality(mesh), "quality of wrong size");
+    if (changes.attributes)
+        for (const Attribute& a : *changes.attributes) vcg_detail::check_attribute(mesh, flat, a);
+    if (changes.wedges)
+        require(changes.wedges->size() == 3 * flat.host_face.size() && vcg::tri::HasPerWedgeTexCoord(mesh),
+                "wedge texture coordinates of wrong size");
+}
+
+template <class M>
 void write(M& mesh, const VcgLayer& flat, const LayerChanges& changes) {
     using Scalar = typename M::ScalarType;
-    vcg_detail::check_changes(mesh, flat, changes);
+    check_changes(mesh, flat, changes);
     // From here on nothing can fail.
     if (changes.positions)
         for (std::size_t i = 0; i < flat.host_vertex.size(); ++i)

@@ -11,7 +11,9 @@
 namespace multires {
 namespace {
 
-thread_local bool inside_loop = false;
+/// In a library that is opened at run time, as a plugin is, a thread's variables are allocated at its first access by
+/// default, and glibc ends the process if that fails. initial-exec has them allocated with the thread.
+[[gnu::tls_model("initial-exec")]] thread_local bool inside_loop = false;
 
 /// Without overflow for any count > 0.
 Index chunks_of(Index count, Index grain) { return (count - 1) / grain + 1; }

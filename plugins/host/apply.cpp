@@ -129,7 +129,8 @@ RichParameterList parameters(const Filter& filter, const MeshDocument& document)
     }
 }
 
-Report apply(const Filter& filter, const RichParameterList& list, MeshDocument& document, vcg::CallBackPos* callback) {
+void apply(const Filter& filter, const RichParameterList& list, MeshDocument& document, vcg::CallBackPos* callback,
+           const std::function<void(const Report&)>& prepare) {
     MeshModel& model = current_mesh(filter, document);
     const VcgLayer flat = read_layer(filter, model);
 
@@ -146,8 +147,9 @@ Report apply(const Filter& filter, const RichParameterList& list, MeshDocument& 
         round_to_host(*result.positions);  // so that the shape is known again when it is read
         after.original = original_after(session.original.get(), flat.layer.mesh, *result.positions);
     }
-    write_result(document, model, flat, result, after);
-    return std::move(result.report);
+    PendingResult pending(document, model, flat, std::move(result), std::move(after));
+    prepare(pending.report());
+    pending.commit();
 }
 
 std::string describe_exception() {

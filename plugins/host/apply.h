@@ -2,6 +2,8 @@
 
 #include "host/api.h"
 
+#include <exception>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,14 +28,24 @@ RichParameterList parameters(const plugin::Filter& filter, const MeshDocument& d
 
 /// Runs the filter on the current mesh. The document is changed at the very end, completely or (whatever is thrown)
 /// not at all; nothing but what the Result holds changes. A new layer becomes the current one.
-/// @throws InputError, Cancelled, std::exception: see describe_exception
-Report apply(const plugin::Filter& filter, const RichParameterList& list, MeshDocument& document,
-             vcg::CallBackPos* callback);
+/// @param prepare  gets the report just before the document changes, to do with it what may fail
+/// @throws InputError, Cancelled, std::exception, what `prepare` throws: see describe_exception
+void apply(const plugin::Filter& filter, const RichParameterList& list, MeshDocument& document,
+           vcg::CallBackPos* callback, const std::function<void(const Report&)>& prepare);
 
 /// The exception being handled, in words for the user. Call it in a catch block.
 std::string describe_exception();
 
 /// A report as lines for the host's log: the filter's own, then a line for each number.
 std::vector<std::string> log_lines(const Report& report);
+
+/// Gives every line to `log`, after the document was changed: if there is no memory for them, the lines are lost.
+template <class Log>
+void tell(const std::vector<std::string>& lines, const Log& log) noexcept {
+    try {
+        for (const std::string& line : lines) log(line);
+    } catch (const std::exception&) {  // see above
+    }
+}
 
 }  // namespace multires::host

@@ -69,18 +69,42 @@ public:
         }
         if (result.wedges) needed |= MeshModel::MM_WEDGTEXCOORD;
         added_ = needed & ~model.dataMask();
-        model.updateDataMask(added_);
+        try {
+            model.updateDataMask(added_);
+            if (added_ & MeshModel::MM_VERTTEXCOORD)  // which vcg leaves without any value
+                for (auto& v : model.cm.vert) v.T() = {0, 0};
+        } catch (...) {
+            take_back();
+            throw;
+        }
     }
-    ~NewElements() { model_.clearDataMask(added_); }
+    ~NewElements() { take_back(); }
     NewElements(const NewElements&) = delete;
     NewElements& operator=(const NewElements&) = delete;
 
     void finish() { added_ = 0; }
 
 private:
+    /// Not by clearDataMask alone: vcg says that a component is there before it has memory for it, and the mask does
+    /// not know of it yet.
+    void take_back() {
+        if (added_ & MeshModel::MM_VERTTEXCOORD) model_.cm.vert.DisableTexCoord();
+        if (added_ & MeshModel::MM_WEDGTEXCOORD) model_.cm.face.DisableWedgeTexCoord();
+        model_.clearDataMask(added_);
+    }
+
     MeshModel& model_;
     int added_ = 0;
 };
+
+LayerChanges changes_of(const Result& result) {
+    LayerChanges changes;
+    changes.positions = result.positions ? &*result.positions : nullptr;
+    changes.quality = result.quality ? &*result.quality : nullptr;
+    changes.attributes = &result.attributes;
+    changes.wedges = result.wedges ? &*result.wedges : nullptr;
+    return changes;
+}
 
 }  // namespace
 
@@ -94,27 +118,42 @@ VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model) {
     return to_layer(model.cm, request);
 }
 
-void write_result(MeshDocument& document, MeshModel& model, const VcgLayer& flat, Result& result, const Kept& to_keep) {
-    // What can fail comes first, and is taken back by the destructors if anything after it does.
-    std::optional<NewLayer> layer;
-    if (result.layer) layer.emplace(document, model, flat, *result.layer);
-    if (layer)
-        for (const std::string& name : layer->left_out())
-            result.report.say("Custom attribute \"" + name + "\" has a type that cannot be copied to the new layer.");
-    NewElements elements(model, result);
-    Kept* place = to_keep.pyramid || to_keep.original ? &slot(model.cm) : nullptr;
-    LayerChanges changes;
-    changes.positions = result.positions ? &*result.positions : nullptr;
-    changes.quality = result.quality ? &*result.quality : nullptr;
-    changes.attributes = &result.attributes;
-    changes.wedges = result.wedges ? &*result.wedges : nullptr;
-    write(model.cm, flat, changes);
+struct PendingResult::Parts {
+    Parts(MeshDocument& document, MeshModel& to, const VcgLayer& from, Result what, Kept to_keep)
+        : model(to), flat(from), result(std::move(what)), kept(std::move(to_keep)),
+          layer(result.layer ? std::make_unique<NewLayer>(document, to, from, *result.layer) : nullptr),
+          elements(to, result) {
+        check_changes(model.cm, flat, changes_of(result));
+        if (layer)
+            for (const std::string& name : layer->left_out())
+                result.report.say("Custom attribute \"" + name +
+                                  "\" has a type that cannot be copied to the new layer.");
+        if (kept.pyramid || kept.original) keeper.emplace(model.cm);
+    }
 
-    // From here on nothing can fail.
-    if (place) *place = to_keep;
-    if (result.positions) update_box_and_normals(model);
-    elements.finish();
-    if (layer) layer->finish();
+    MeshModel& model;
+    const VcgLayer& flat;
+    Result result;
+    Kept kept;
+    std::unique_ptr<NewLayer> layer;
+    NewElements elements;
+    std::optional<Keeper> keeper;
+};
+
+PendingResult::PendingResult(MeshDocument& document, MeshModel& model, const VcgLayer& flat, Result result,
+                             Kept to_keep)
+    : parts_(std::make_unique<Parts>(document, model, flat, std::move(result), std::move(to_keep))) {}
+
+PendingResult::~PendingResult() = default;
+
+const Report& PendingResult::report() const { return parts_->result.report; }
+
+void PendingResult::commit() noexcept {
+    write(parts_->model.cm, parts_->flat, changes_of(parts_->result));
+    if (parts_->keeper) parts_->keeper->keep(std::move(parts_->kept));
+    if (parts_->result.positions) update_box_and_normals(parts_->model);
+    parts_->elements.finish();
+    if (parts_->layer) parts_->layer->finish();
 }
 
 }  // namespace multires::host

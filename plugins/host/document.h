@@ -11,10 +11,28 @@ namespace multires::host {
 /// @throws InputError  for a broken mesh, see to_layer
 VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model);
 
-/// Writes `result`, computed from `flat`, into the document and keeps `to_keep` with the model's mesh: all of it, or
-/// (if it throws) nothing. A new layer becomes the current one; it takes over from the model's all that build_derived
-/// copies, the texture images, the transformation and the camera.
-/// Selections, layers and what the result does not hold stay as they are.
-void write_result(MeshDocument& document, MeshModel& model, const VcgLayer& flat, Result& result, const Kept& to_keep);
+/// A result, computed from `flat`, on its way into the document. Making one does all that can fail and changes nothing
+/// a user could see; commit() then writes everything. One that goes without a commit takes back what it prepared.
+///
+/// A new layer becomes the current one; it takes over from the model's all that build_derived copies, the texture
+/// images, the transformation and the camera. Selections, layers and what the result does not hold stay as they are.
+class PendingResult {
+public:
+    /// @param flat  of `model`; must outlive this
+    /// @param to_keep  with the model's mesh
+    /// @throws InputError, std::invalid_argument, std::bad_alloc
+    PendingResult(MeshDocument& document, MeshModel& model, const VcgLayer& flat, Result result,
+                  PyramidPointer pyramid);
+    ~PendingResult();
+    PendingResult(const PendingResult&) = delete;
+    PendingResult& operator=(const PendingResult&) = delete;
+
+    const Report& report() const;
+    void commit() noexcept;
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
 
 }  // namespace multires::host

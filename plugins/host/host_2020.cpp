@@ -28,17 +28,19 @@ void Host::initParameterSet(QAction* action, MeshDocument& document, RichParamet
 
 bool Host::applyFilter(QAction* action, MeshDocument& document, const RichParameterList& list,
                        vcg::CallBackPos* callback) {
+    std::string message;
     try {
-        const Report report = apply(row(table_, action), list, document, callback);
-        for (const std::string& line : log_lines(report)) Log(GLLogStream::FILTER, line);
+        std::vector<std::string> lines;
+        apply(row(table_, action), list, document, callback, [&](const Report& report) { lines = log_lines(report); });
+        tell(lines, [&](const std::string& line) { Log(GLLogStream::FILTER, line); });
         return true;
     } catch (...) {
-        // The GUI shows errorMessage, meshlabserver only the log.
-        const std::string message = describe_exception();
-        errorMessage = QString::fromStdString(message);
-        Log(GLLogStream::WARNING, message);
-        return false;
+        message = describe_exception();
     }
+    // The GUI shows errorMessage, meshlabserver only the log.
+    errorMessage = QString::fromStdString(message);
+    Log(GLLogStream::WARNING, message);
+    return false;
 }
 
 }  // namespace multires::host

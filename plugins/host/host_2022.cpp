@@ -55,10 +55,15 @@ std::map<std::string, QVariant> Host::applyFilter(const QAction* action, const R
     std::string message;
     try {
         const plugin::Filter& filter = row(table_, action);
+        std::vector<std::string> lines;
+        std::map<std::string, QVariant> returned;
+        apply(filter, list, document, callback, [&](const Report& report) {
+            lines = log_lines(report);
+            returned = values(report);
+        });
         changed = postcondition(filter);
-        const Report report = apply(filter, list, document, callback);
-        for (const std::string& line : log_lines(report)) log(GLLogStream::FILTER, line);
-        return values(report);
+        tell(lines, [&](const std::string& line) { log(GLLogStream::FILTER, line); });
+        return returned;
     } catch (...) {
         message = describe_exception();
     }

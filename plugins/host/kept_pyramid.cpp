@@ -1,5 +1,8 @@
 #include "host/kept_pyramid.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace multires::host {
 
 /// What the attribute holds. A type of its own, and a named one: typeid tells it from anything else of that name and
@@ -28,11 +31,39 @@ Kept kept(const CMeshO& mesh) {
     return slot ? slot->kept : Kept();
 }
 
-Kept& slot(CMeshO& mesh) {
-    if (PyramidSlot* slot = find_slot(mesh)) return slot->kept;
-    using Allocator = vcg::tri::Allocator<CMeshO>;
-    Allocator::DeletePerMeshAttribute(mesh, attribute_name);  // of the wrong type: see the header
-    return Allocator::AddPerMeshAttribute<PyramidSlot>(mesh, attribute_name)().kept;
+Keeper::Keeper(CMeshO& mesh) : mesh_(mesh) {
+    if (PyramidSlot* slot = find_slot(mesh)) {
+        slot_ = &slot->kept;
+        return;
+    }
+    vcg::PointerToAttribute name;
+    name._name = attribute_name;
+    other_ = mesh.mesh_attr.extract(name);
+    try {
+        slot_ = &vcg::tri::Allocator<CMeshO>::AddPerMeshAttribute<PyramidSlot>(mesh, attribute_name)().kept;
+        made_ = true;
+    } catch (...) {
+        if (other_) mesh.mesh_attr.insert(std::move(other_));
+        throw;
+    }
+}
+
+Keeper::~Keeper() {
+    if (made_) {
+        const auto at = std::find_if(mesh_.mesh_attr.begin(), mesh_.mesh_attr.end(),
+                                     [](const auto& a) { return a._name == attribute_name; });
+        delete at->_handle;
+        mesh_.mesh_attr.erase(at);
+    }
+    if (other_) mesh_.mesh_attr.insert(std::move(other_));
+}
+
+void Keeper::keep(Kept what) noexcept {
+    *slot_ = std::move(what);
+    made_ = false;
+    if (!other_) return;
+    delete other_.value()._handle;
+    other_ = {};
 }
 
 }  // namespace multires::host

@@ -5,6 +5,7 @@
 #include "filters/filter.h"
 
 #include <memory>
+#include <set>
 
 namespace multires::host {
 
@@ -19,14 +20,30 @@ struct Kept {
 /// name says which layout of KeptPyramid and Original it points to.
 ///
 /// Hosts save it in no file. A VMI file from elsewhere may hold bytes under that name, as an attribute of another type:
-/// they are never read, kept() gives nulls and slot() puts a new slot in their place.
+/// they are never read, kept() gives nulls and Keeper puts a new slot in their place.
 ///
 /// The pyramid's code belongs to the plugin that built it, and hosts unload plugins before they delete meshes; our
 /// plugins are therefore linked to stay loaded (-z nodelete).
 Kept kept(const CMeshO& mesh);
 
-/// The slot to keep it in, made if there is none. Assigning to it cannot fail.
-/// @throws std::bad_alloc
-Kept& slot(CMeshO& mesh);
+/// The slot to keep it in, made if there is none; one that was made goes again unless it is filled.
+class Keeper {
+public:
+    /// @throws std::bad_alloc
+    explicit Keeper(CMeshO& mesh);
+    ~Keeper();
+    Keeper(const Keeper&) = delete;
+    Keeper& operator=(const Keeper&) = delete;
+
+    void keep(Kept what) noexcept;
+
+private:
+    using Attributes = std::set<vcg::PointerToAttribute>;
+
+    CMeshO& mesh_;
+    Attributes::node_type other_;  // of another type, in the way
+    Kept* slot_ = nullptr;
+    bool made_ = false;
+};
 
 }  // namespace multires::host

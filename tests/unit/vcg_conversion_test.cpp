@@ -244,7 +244,7 @@ TYPED_TEST(VcgConversion, WriteIsAllOrNothing) {
     const std::vector<Attribute> unknown{{AttributeKind::scalar, "absent", 1, std::vector<double>(6, 1.0)}};
     EXPECT_THROW(write(this->mesh, flat, {&moved, nullptr, &unknown}), std::invalid_argument);
     moved[5].x() = std::numeric_limits<double>::infinity();
-    EXPECT_THROW(write(this->mesh, flat, {&moved}), std::invalid_argument);
+    EXPECT_THROW(write(this->mesh, flat, {&moved}), InputError);
     EXPECT_EQ(this->mesh.vert[1].P(), before);
     EXPECT_NE(this->mesh.vert[1].Q(), 1);
 }

@@ -1,0 +1,40 @@
+#pragma once
+
+#include "host/api.h"
+
+#include "mesh/mesh.h"
+
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+/// A host for tests: loads the plugins as MeshLab does and makes documents, without a window or Python.
+namespace multires::host_tests {
+
+/// A filter of a loaded plugin.
+struct Action {
+    FilterPlugin* plugin = nullptr;
+    QAction* action = nullptr;
+    std::string name;  ///< as in Python
+    friend std::ostream& operator<<(std::ostream& out, const Action& a);
+};
+
+/// All filters of all plugins in <build>/plugins.
+const std::vector<Action>& actions();
+
+/// @throws std::logic_error  if there is none
+const Action& action_named(const std::string& name);
+
+RichParameterList parameters_of(const Action& action, const MeshDocument& document);
+
+/// Adds a layer with a mesh.
+MeshModel& add(MeshDocument& document, const Mesh& mesh, const char* label = "mesh");
+
+/// Switches on all data that filters read or a new layer takes over, with values that differ from element to element.
+void enrich(MeshModel& model);
+
+/// Two layers, the second current: a small surface with a boundary, selections, deleted elements, and every data (if
+/// bare, no optional data at all).
+void fill(MeshDocument& document, bool bare = false);
+
+}  // namespace multires::host_tests
