@@ -5,9 +5,11 @@
 #include "host/parameters.h"
 
 #include "filters/original.h"
+#include "filters/result_hash.h"
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <iomanip>
 #include <new>
 #include <sstream>
@@ -58,11 +60,18 @@ void round_to_host(Positions& positions) {
 
 std::string text(const Report::Value& value) {
     std::ostringstream out;
-    out << std::boolalpha << std::setprecision(6);
+    out << std::boolalpha;
+    const auto number = [&](double x) {  // whole numbers with all their digits
+        const bool whole = std::abs(x) < 1e16 && x == std::round(x);
+        out << std::setprecision(whole ? 16 : 6) << x;
+    };
     std::visit(
         [&](const auto& v) {
-            if constexpr (std::is_same_v<std::decay_t<decltype(v)>, std::vector<double>>)
-                for (std::size_t i = 0; i < v.size(); ++i) out << (i ? " " : "") << v[i];
+            using Type = std::decay_t<decltype(v)>;
+            if constexpr (std::is_same_v<Type, std::vector<double>>)
+                for (std::size_t i = 0; i < v.size(); ++i) out << (i ? " " : ""), number(v[i]);
+            else if constexpr (std::is_same_v<Type, double>)
+                number(v);
             else
                 out << v;
         },
@@ -147,6 +156,7 @@ void apply(const Filter& filter, const RichParameterList& list, MeshDocument& do
         round_to_host(*result.positions);  // so that the shape is known again when it is read
         after.original = original_after(session.original.get(), flat.layer.mesh, *result.positions);
     }
+    if (const double hash = result_hash(result); hash != 0) result.report.add("result_hash", hash);
     PendingResult pending(document, model, flat, std::move(result), std::move(after));
     prepare(pending.report());
     pending.commit();

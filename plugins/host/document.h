@@ -21,8 +21,7 @@ public:
     /// @param flat  of `model`; must outlive this
     /// @param to_keep  with the model's mesh
     /// @throws InputError, std::invalid_argument, std::bad_alloc
-    PendingResult(MeshDocument& document, MeshModel& model, const VcgLayer& flat, Result result,
-                  PyramidPointer pyramid);
+    PendingResult(MeshDocument& document, MeshModel& model, const VcgLayer& flat, Result result, Kept to_keep);
     ~PendingResult();
     PendingResult(const PendingResult&) = delete;
     PendingResult& operator=(const PendingResult&) = delete;

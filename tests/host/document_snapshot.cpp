@@ -2,6 +2,8 @@
 
 #include "mesh/vcg_custom.h"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 
 namespace multires::host_tests {
@@ -86,10 +88,11 @@ void mesh(const CMeshO& m, Snapshot& s, Bytes& out) {
     s.storage.push_back(m.vert.data()), s.storage.push_back(m.face.data());
     bool keeps = false;
     for (const vcg::PointerToAttribute& a : m.mesh_attr) {
-        const void* pyramid = nullptr;
-        std::memcpy(&pyramid, a._handle->DataBegin(), sizeof pyramid);
-        s.storage.push_back(pyramid);
-        keeps = keeps || pyramid;
+        // Two shared pointers, each of them two addresses; see host/kept_pyramid.h.
+        std::array<const void*, 4> kept{};
+        std::memcpy(kept.data(), a._handle->DataBegin(), std::min<std::size_t>(a._sizeof, sizeof kept));
+        s.storage.insert(s.storage.end(), kept.begin(), kept.end());
+        keeps = keeps || kept[0];
     }
     s.pyramids.push_back(keeps);
 }

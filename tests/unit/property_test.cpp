@@ -1,0 +1,313 @@
+#include "all_tables.h"
+#include "attribute_fixtures.h"
+#include "filter_fixtures.h"
+#include "result_numbers.h"
+#include "variants.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <random>
+#include <string>
+
+// What holds for every filter on every mesh: the same bits whatever the threads and however often, results that move,
+// turn, grow and are mirrored with the mesh, and nothing broken on random meshes.
+
+namespace multires {
+namespace {
+
+using namespace plugin;
+using fixtures::Threads;
+
+std::vector<const Filter*> filters() {
+    std::vector<const Filter*> all;
+    for (const Plugin* plugin : all_tables())
+        for (const Filter& filter : plugin->filters) all.push_back(&filter);
+    return all;
+}
+
+const Filter& filter_named(const std::string& name) {
+    for (const Filter* f : filters())
+        if (f->python_name == name) return *f;
+    throw std::logic_error("no filter " + name);
+}
+
+Layer with_data(Mesh mesh) { return fixtures::with_everything(std::move(mesh), fixtures::random_value); }
+
+Result run(const Filter& filter, const Layer& layer, const std::map<std::string, double>& values = {}) {
+    Given given(values);
+    Session session;
+    return filter.run(given, layer, session);
+}
+
+bool finite(const std::vector<double>& numbers) {
+    return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
+}
+
+/// The layer as a host would have it after the result.
+Layer after(Layer layer, const Result& r) {
+    if (r.positions) layer.mesh.positions = *r.positions;
+    for (const Attribute& changed : r.attributes)
+        for (Attribute& a : layer.attributes)
+            if (a.kind == changed.kind && a.name == changed.name) a.values = changed.values;
+    if (r.wedges) layer.wedges = *r.wedges;
+    return layer;
+}
+
+std::string filter_name(const testing::TestParamInfo<const Filter*>& info) { return info.param->python_name; }
+
+class Properties : public testing::TestWithParam<const Filter*> {
+protected:
+    const Filter& filter() const { return *GetParam(); }
+};
+
+}  // namespace
+
+// ---- determinism ----------------------------------------------------------------------------------------------------
+
+TEST_P(Properties, SameBitsForAnyNumberOfThreadsAndEveryTime) {
+    const Layer layer = with_data(shapes::scan(5000, {}));
+    std::vector<double> first;
+    for (const int threads : {1, 2, 3, 2}) {
+        const Threads scope(threads);
+        const std::vector<double> now = fixtures::numbers(run(filter(), layer));
+        EXPECT_TRUE(finite(now));
+        if (first.empty()) first = now;
+        EXPECT_EQ(now, first) << threads << " threads";
+    }
+}
+
+TEST_P(Properties, EveryVariantGivesTheSameBitsForOneAndTwoThreads) {
+    const Layer layer = with_data(shapes::scan(1500, {}));
+    for (const Variant& variant : variants(filter(), layer)) {
+        SCOPED_TRACE(variant.name);
+        std::vector<double> results[2];
+        for (const int threads : {1, 2}) {
+            const Threads scope(threads);
+            try {
+                results[threads - 1] = fixtures::numbers(run(filter(), layer, variant.values));
+            } catch (const InputError&) {  // for both
+            }
+        }
+        EXPECT_EQ(results[0], results[1]);
+    }
+}
+
+TEST(Commuting, FiltersOfDifferentDataGiveTheSameInAnyOrder) {
+    struct Step {
+        std::string name;
+        std::map<std::string, double> values;
+    };
+    const std::vector<Step> steps = {
+        {"apply_attributes_multires_relaxation", {{"color", 1}, {"quality", 0}}},
+        {"apply_attributes_multires_band", {{"color", 0}, {"quality", 1}}},
+        {"apply_attributes_multires_band_custom", {}},
+        {"compute_multires_pyramid", {}},
+    };
+    const Layer layer = with_data(shapes::scan(2000, {}));
+    std::vector<std::size_t> order = {0, 1, 2, 3};
+    std::vector<double> first;
+    do {
+        Session session;  // with the pyramid kept from step to step
+        Layer now = layer;
+        for (const std::size_t i : order) {
+            Given given(steps[i].values);
+            now = after(now, filter_named(steps[i].name).run(given, now, session));
+        }
+        std::vector<double> values;
+        for (const Attribute& a : now.attributes) values.insert(values.end(), a.values.begin(), a.values.end());
+        if (first.empty()) first = values;
+        EXPECT_EQ(values, first);
+    } while (std::next_permutation(order.begin(), order.end()));
+}
+
+// ---- invariance -----------------------------------------------------------------------------------------------------
+
+namespace {
+
+constexpr double invariance_tolerance = 1e-9;  // of the box diagonal, or of the range of an attribute
+
+struct Placing {
+    std::string name;
+    Eigen::Matrix3d turn = Eigen::Matrix3d::Identity();
+    double scale = 1;
+    Vec3 offset = Vec3::Zero();
+    bool reversed = false;  ///< faces turned over, so that a mirrored mesh has its outside outside
+
+    Vec3 operator()(const Vec3& p) const { return scale * (turn * p) + offset; }
+    Layer operator()(Layer layer) const {
+        for (Vec3& p : layer.mesh.positions) p = (*this)(p);
+        if (!reversed) return layer;
+        for (std::size_t f = 0; f < layer.mesh.faces.size(); ++f) {
+            std::swap(layer.mesh.faces[f][1], layer.mesh.faces[f][2]);
+            if (!layer.wedges.empty()) std::swap(layer.wedges[3 * f + 1], layer.wedges[3 * f + 2]);
+        }
+        return layer;
+    }
+};
+
+std::vector<Placing> placings() {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(0.3, -0.8, 0.5).normalized()).toRotationMatrix();
+    const Eigen::Matrix3d mirror = Vec3(-1, 1, 1).asDiagonal();
+    return {{"turned and moved", turn, 1, {3, -1, 2}},
+            {"grown", Eigen::Matrix3d::Identity(), 1000},
+            {"shrunk, turned and moved", turn, 1e-3, {0.004, -0.001, 0.002}},
+            {"mirrored", mirror, 1, Vec3::Zero(), true},
+            {"mirrored, inside out", mirror},
+            {"turned over", Eigen::Matrix3d::Identity(), 1, Vec3::Zero(), true}};
+}
+
+double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
+    EXPECT_EQ(a.size(), b.size());
+    double largest = 0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+    return largest;
+}
+
+void expect_placed(const Placing& place, const Result& here, const Result& there, double diagonal) {
+    const double length = invariance_tolerance * diagonal;
+    const auto compare = [&](const Positions& a, const Positions& b) {
+        ASSERT_EQ(a.size(), b.size());
+        double largest = 0;
+        for (std::size_t i = 0; i < a.size(); ++i) largest = std::max(largest, (place(a[i]) - b[i]).norm());
+        EXPECT_LE(largest, place.scale * length);
+    };
+    if (here.positions) compare(*here.positions, *there.positions);
+    if (here.quality) {  // a length
+        std::vector<double> scaled = *here.quality;
+        for (double& x : scaled) x *= place.scale;
+        EXPECT_LE(largest_difference(scaled, *there.quality), place.scale * length);
+    }
+    ASSERT_EQ(here.attributes.size(), there.attributes.size());
+    for (std::size_t i = 0; i < here.attributes.size(); ++i)
+        EXPECT_LE(largest_difference(here.attributes[i].values, there.attributes[i].values),
+                  255 * invariance_tolerance);
+    if (!here.layer) return;
+    EXPECT_EQ(here.layer->source_vertex, there.layer->source_vertex);
+    EXPECT_EQ(here.layer->faces.size(), there.layer->faces.size());
+    if (here.layer->positions) compare(*here.layer->positions, *there.layer->positions);
+}
+
+}  // namespace
+
+TEST_P(Properties, ResultsMoveTurnScaleAndMirrorWithTheMesh) {
+    const Layer layer = with_data(shapes::scan(1000, {}));
+    const Vec3 box = [&] {
+        Vec3 low = layer.mesh.positions[0], high = low;
+        for (const Vec3& p : layer.mesh.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
+        return Vec3(high - low);
+    }();
+    for (const Variant& variant : variants(filter(), layer)) {
+        // Signed along the normal: turning the surface over changes the sign, which is what it says.
+        const bool signed_by_normals = variant.name == "signed=1" || variant.name == "signed_normal=1";
+        Result here;
+        try {
+            here = run(filter(), layer, variant.values);
+        } catch (const InputError&) {
+            continue;
+        }
+        for (const Placing& place : placings()) {
+            if (signed_by_normals && place.name != "grown" && place.turn.determinant() * (place.reversed ? -1 : 1) < 0)
+                continue;
+            SCOPED_TRACE(variant.name + ", " + place.name);
+            expect_placed(place, here, run(filter(), place(layer), variant.values), box.norm());
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(AllPlugins, Properties, testing::ValuesIn(filters()), filter_name);
+
+// ---- random meshes --------------------------------------------------------------------------------------------------
+
+namespace {
+
+#ifdef MULTIRES_SANITIZED
+constexpr int random_meshes = 150;
+#else
+constexpr int random_meshes = 2000;
+#endif
+
+/// Another one in every run; MULTIRES_SEED repeats one.
+std::uint64_t first_seed() {
+    if (const char* text = std::getenv("MULTIRES_SEED")) return std::strtoull(text, nullptr, 10);
+    return std::random_device()();
+}
+
+/// A variant of the filter with some numbers changed too.
+Variant random_variant(const Filter& filter, const Layer& layer, shapes::Random& random) {
+    const std::vector<Variant> all = variants(filter, layer);
+    Variant v = all[random.bits() % all.size()];
+    for (const Declared& d : declared(filter, &layer)) {
+        if (!random.chance(0.1) || d.most - d.least > 1000) continue;
+        if (d.type == Declared::Type::real) v.values[d.name] = random.uniform(d.least, d.most);
+        if (d.type == Declared::Type::integer) v.values[d.name] = d.least + static_cast<double>(random.bits() % 4);
+        v.name += ", " + d.name;
+    }
+    return v;
+}
+
+void check_random(const Filter& filter, const Layer& layer, const Variant& variant) {
+    Result result;
+    try {
+        result = run(filter, layer, variant.values);
+    } catch (const InputError&) {
+        return;
+    }
+    EXPECT_TRUE(finite(fixtures::numbers(result)));
+    if (result.positions) {
+        std::vector<std::uint8_t> used(layer.mesh.positions.size(), 0);
+        for (const Face& f : layer.mesh.faces)
+            for (const Index v : f) used[v] = 1;
+        for (std::size_t i = 0; i < used.size(); ++i)
+            EXPECT_TRUE(used[i] || (*result.positions)[i] == layer.mesh.positions[i]) << "moved vertex " << i;
+    }
+    if (!result.layer) return;
+    const auto vertices = static_cast<Index>(result.layer->source_vertex.size());
+    for (const Face& f : result.layer->faces)
+        for (const Index v : f) ASSERT_TRUE(v >= 0 && v < vertices);
+}
+
+}  // namespace
+
+TEST(RandomMeshes, EveryFilterWorksOrRefuses) {
+    const std::uint64_t first = first_seed();
+    std::cout << "MULTIRES_SEED=" << first << "\n";
+    const auto all = filters();
+    for (int i = 0; i < random_meshes && !testing::Test::HasFailure(); ++i) {
+        const std::uint64_t seed = first + i;
+        shapes::Random random(seed);
+        const Layer layer = with_data(i % 3 ? fixtures::damaged_mesh(seed) : fixtures::random_soup(seed));
+        for (const Filter* filter : all) {
+            const Variant variant = random_variant(*filter, layer, random);
+            SCOPED_TRACE("MULTIRES_SEED=" + std::to_string(seed) + ", " + filter->python_name + ", " + variant.name);
+            check_random(*filter, layer, variant);
+        }
+    }
+}
+
+TEST(RandomMeshes, GainsOfOneGiveTheMeshBack) {
+    const std::uint64_t first = first_seed();
+    std::cout << "MULTIRES_SEED=" << first << "\n";
+    for (int i = 0; i < random_meshes && !testing::Test::HasFailure(); ++i) {
+        const std::uint64_t seed = first + i;
+        SCOPED_TRACE("MULTIRES_SEED=" + std::to_string(seed));
+        const Layer layer = fixtures::layer_of(fixtures::damaged_mesh(seed));
+        PyramidOptions options;
+        options.base_vertices = 4;
+        options.op = static_cast<Operator>(seed % 6);
+        options.scheme = static_cast<Scheme>(seed / 6 % 2);
+        options.grouping = static_cast<Grouping>(seed / 12 % 2);
+        Session session;
+        Report report;
+        double diagonal = 0, detail = 0;
+        for (const Vec3& p : layer.mesh.positions) diagonal = std::max(diagonal, (p - layer.mesh.positions[0]).norm());
+        const auto pyramid = pyramid_of(layer, options, session, report);
+        for (const LevelInfo& level : pyramid->levels()) detail = std::max(detail, level.rms_detail);
+        EXPECT_LE(fixtures::largest_distance(layer.mesh.positions, pyramid->synthesise({})),
+                  1e-11 * (diagonal + detail));
+    }
+}
+
+}  // namespace multires
