@@ -1,6 +1,7 @@
 #include "filters/adaptive.h"
 
 #include "measure/distance.h"
+#include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
 #include "parallel/parallel.h"
 
@@ -40,9 +41,24 @@ std::vector<double> vertex_areas(const Mesh& mesh) {
     return area;
 }
 
+/// The normal at a foot. On an edge or a corner, where several faces are equally close and rounding chooses one, it is
+/// the direction of the distance, or (without a distance) what the corners' normals say: the same for all of them.
+Vec3 normal_at(const Vec3& share, const Vec3& gap, const Face& f, const Vec3& face_normal,
+               const std::vector<Vec3>& vertex_normal, double length) {
+    constexpr double tolerance = 1e-6;
+    if (share.minCoeff() > tolerance) return face_normal;
+    const double distance = gap.norm();
+    if (distance > tolerance * length) return gap / distance;
+    Vec3 sum(0, 0, 0);
+    for (int k = 0; k < 3; ++k)
+        if (share[k] > tolerance) sum += share[k] * vertex_normal[f[k]];
+    return sum.norm() > tolerance ? sum.normalized() : face_normal;
+}
+
 /// Feet of the input's vertices on a reconstruction.
 std::vector<Foot> feet_of(const Mesh& input, const std::vector<double>& area, const Faces& faces, const Positions& at) {
     const SurfaceTree tree(faces, at);
+    const std::vector<Vec3> vertex_normal = vertex_normals(faces, at);
     std::vector<Foot> feet(input.positions.size());
     parallel_chunks(static_cast<Index>(feet.size()), 1024, [&](Index begin, Index end) {
         Index hint = -1;
@@ -57,9 +73,10 @@ std::vector<Foot> feet_of(const Mesh& input, const std::vector<double>& area, co
             Foot& foot = feet[i];
             foot.face = hit.face;
             foot.share = barycentric(hit.point, at[f[0]], at[f[1]], at[f[2]]);
-            foot.normal = n / length;
+            const Vec3 gap = input.positions[i] - hit.point;
+            foot.normal = normal_at(foot.share, gap, f, n / length, vertex_normal, std::sqrt(length));
             foot.weight = area[i];
-            foot.gap = foot.normal.dot(input.positions[i] - hit.point);
+            foot.gap = foot.normal.dot(gap);
         }
     });
     return feet;

@@ -16,27 +16,32 @@ struct Frame {
     Vec3 to_world(const Vec3& v) const { return t * v.x() + b * v.y() + n * v.z(); }
 };
 
-/// Frame of a 1-ring: normal = area vector of its polygon, tangent = from the middle entry to the first. World axes if
-/// the ring has no area.
+/// Frame of a 1-ring: normal = area vector of its polygon, tangent = from its middle to the entry with the smallest
+/// index. World axes if the ring has no area. Where the ring begins and which way round it goes makes no difference but
+/// to the signs of normal and bitangent, so that mirrored meshes have mirrored frames.
 /// @param at  gives the position of a vertex
 template <class At>
 Frame ring_frame(const Index* ring, Index size, const At& at) {
     Frame f;
     if (size < 3) return f;
     const Vec3 origin = at(ring[0]);
-    Vec3 area(0, 0, 0), last = at(ring[1]) - origin;
-    double extent = last.squaredNorm();
+    Vec3 area(0, 0, 0), last = at(ring[1]) - origin, sum = last, marked(0, 0, 0);
+    double squares = last.squaredNorm();
+    Index smallest = ring[0];
+    if (ring[1] < smallest) smallest = ring[1], marked = last;
     for (Index j = 2; j < size; ++j) {
         const Vec3 d = at(ring[j]) - origin;
         area += last.cross(d);
-        extent += d.squaredNorm();
+        sum += d;
+        squares += d.squaredNorm();
+        if (ring[j] < smallest) smallest = ring[j], marked = d;
         last = d;
     }
-    const double size2 = area.norm();
+    const double size2 = area.norm(), extent = 2 * (squares - sum.squaredNorm() / size);
     if (!(size2 > 1e-12 * extent)) return f;
-    const Vec3 n = area / size2, across = origin - at(ring[size / 2]), t = across - n * n.dot(across);
+    const Vec3 n = area / size2, across = 2 * (marked - sum / size), t = across - n * n.dot(across);
     const double length = t.norm();
-    if (!(length * length > 1e-12 * across.squaredNorm())) return f;
+    if (!(length * length > 1e-12 * extent)) return f;
     f.size = std::min(size2 / std::sqrt(extent), length);
     f.n = n;
     f.t = t / length;

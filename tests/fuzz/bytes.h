@@ -36,7 +36,7 @@ private:
 }  // namespace multires::fuzz
 
 /// Stops with a core dump, in all kinds of builds: what fuzzers look for.
-#define FUZZ_REQUIRE(condition) \
-    do {                        \
-        if (!(condition)) __builtin_trap(); \
+#define FUZZ_REQUIRE(condition)                                                                                        \
+    do {                                                                                                               \
+        if (!(condition)) __builtin_trap();                                                                            \
     } while (false)

@@ -14,10 +14,9 @@ namespace {
 class Vertex;
 class FaceType;
 struct Used : vcg::UsedTypes<vcg::Use<Vertex>::AsVertexType, vcg::Use<FaceType>::AsFaceType> {};
-class Vertex
-    : public vcg::Vertex<Used, vcg::vertex::InfoOcf, vcg::vertex::Coord3f, vcg::vertex::BitFlags,
-                         vcg::vertex::Normal3f, vcg::vertex::Qualityf, vcg::vertex::Color4b, vcg::vertex::VFAdjOcf,
-                         vcg::vertex::MarkOcf, vcg::vertex::TexCoordfOcf> {};
+class Vertex : public vcg::Vertex<Used, vcg::vertex::InfoOcf, vcg::vertex::Coord3f, vcg::vertex::BitFlags,
+                                  vcg::vertex::Normal3f, vcg::vertex::Qualityf, vcg::vertex::Color4b,
+                                  vcg::vertex::VFAdjOcf, vcg::vertex::MarkOcf, vcg::vertex::TexCoordfOcf> {};
 class FaceType : public vcg::Face<Used, vcg::face::InfoOcf, vcg::face::VertexRef, vcg::face::BitFlags,
                                   vcg::face::Color4bOcf, vcg::face::QualityfOcf, vcg::face::WedgeTexCoordfOcf> {};
 struct VcgMesh : vcg::tri::TriMesh<vcg::vertex::vector_ocf<Vertex>, vcg::face::vector_ocf<FaceType>> {
