@@ -12,7 +12,7 @@ packages=(build-essential ca-certificates ccache cmake ninja-build
     python3 python3-venv dpkg-dev debian-archive-keyring xz-utils
     libegl1 libgl1 libgl1-mesa-dri libglu1-mesa libopengl0 libxrender1 xvfb xauth)
 if [ "$what" = all ]; then
-    packages+=(meshlab clang-format clang-tidy chromium-headless-shell)
+    packages+=(meshlab clang clang-format clang-tidy libclang-rt-dev chromium-headless-shell)
 fi
 
 missing=()
