@@ -44,7 +44,7 @@ std::vector<double> vertex_areas(const Mesh& mesh) {
 /// The normal at a foot. On an edge or a corner, where several faces are equally close and rounding chooses one, it is
 /// the direction of the distance, or (without a distance) what the corners' normals say: the same for all of them.
 Vec3 normal_at(const Vec3& share, const Vec3& gap, const Face& f, const Vec3& face_normal,
-               const std::vector<Vec3>& vertex_normal, double length) {
+               const Array<Vec3>& vertex_normal, double length) {
     constexpr double tolerance = 1e-6;
     if (share.minCoeff() > tolerance) return face_normal;
     const double distance = gap.norm();
@@ -58,7 +58,7 @@ Vec3 normal_at(const Vec3& share, const Vec3& gap, const Face& f, const Vec3& fa
 /// Feet of the input's vertices on a reconstruction.
 std::vector<Foot> feet_of(const Mesh& input, const std::vector<double>& area, const Faces& faces, const Positions& at) {
     const SurfaceTree tree(faces, at);
-    const std::vector<Vec3> vertex_normal = vertex_normals(faces, at);
+    const Array<Vec3> vertex_normal = vertex_normals(faces, at);
     std::vector<Foot> feet(input.positions.size());
     parallel_chunks(static_cast<Index>(feet.size()), 1024, [&](Index begin, Index end) {
         Index hint = -1;

@@ -42,7 +42,7 @@ Mesh in_single_precision(Mesh mesh) {
     return mesh;
 }
 
-Mesh with_faces(std::vector<Vec3> positions, Faces faces) { return {std::move(positions), std::move(faces)}; }
+Mesh with_faces(Positions positions, Faces faces) { return {std::move(positions), std::move(faces)}; }
 
 Mesh components(int count) {
     Mesh all;
