@@ -1,6 +1,7 @@
 #pragma once
 
 #include "filters/filter.h"
+#include "filters/result_hash.h"
 
 #include <cstdint>
 #include <functional>
@@ -88,9 +89,11 @@ struct Filter {
 };
 
 /// Makes a row from an options struct: `defaults` derives it from a layer, `bind` visits its fields, `apply` does it.
+/// The report of a filter that changes anything ends with a hash of what.
 template <class Options>
 Filter filter(Filter row, Options (*defaults)(const Layer*), void (*bind)(Parameters&, Options&),
               Result (*apply)(const Layer&, const Options&, Session&)) {
+    const bool changes = row.changes != none;
     row.parameters = [=](Parameters& p, const Layer* layer) {
         Options o = defaults(layer);
         bind(p, o);
@@ -98,8 +101,13 @@ Filter filter(Filter row, Options (*defaults)(const Layer*), void (*bind)(Parame
     row.run = [=](Parameters& p, const Layer& layer, Session& session) {
         Options o = defaults(&layer);
         bind(p, o);
-        return apply(layer, o, session);
+        Result result = apply(layer, o, session);
+        if (changes) result.report.add("result_hash", result_hash(result));
+        return result;
     };
+    if (changes)
+        row.returns.push_back({"result_hash", Returned::Type::real, "",
+                               "Hash of all that was computed: the same if, and in practice only if, the result is"});
     return row;
 }
 

@@ -10,8 +10,8 @@ class Hash {
 public:
     Hash() { XXH3_64bits_reset(&state_); }
 
-    template <class T>
-    void add(const std::vector<T>& values) {
+    template <class T, class Allocator>
+    void add(const std::vector<T, Allocator>& values) {
         static_assert(std::has_unique_object_representations_v<T> || std::is_same_v<T, double>, "padding has no value");
         add(values.data(), values.size() * sizeof(T));
     }

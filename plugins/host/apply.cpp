@@ -5,7 +5,6 @@
 #include "host/parameters.h"
 
 #include "filters/original.h"
-#include "filters/result_hash.h"
 
 #include <array>
 #include <chrono>
@@ -156,7 +155,6 @@ void apply(const Filter& filter, const RichParameterList& list, MeshDocument& do
         round_to_host(*result.positions);  // so that the shape is known again when it is read
         after.original = original_after(session.original.get(), flat.layer.mesh, *result.positions);
     }
-    if (const double hash = result_hash(result); hash != 0) result.report.add("result_hash", hash);
     PendingResult pending(document, model, flat, std::move(result), std::move(after));
     prepare(pending.report());
     pending.commit();

@@ -121,6 +121,8 @@ class LevelAsLayerReport:
     """Vertices at non-manifold edges or points, which are neither moved nor removed."""
     unreferenced_vertices: int
     """Vertices without a face, which stay where they are."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -141,6 +143,8 @@ class DetailToQualityReport:
     """Vertices at non-manifold edges or points, which are neither moved nor removed."""
     unreferenced_vertices: int
     """Vertices without a face, which stay where they are."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -171,6 +175,8 @@ class LowPassReport:
     """Vertices at non-manifold edges or points, which are neither moved nor removed."""
     unreferenced_vertices: int
     """Vertices without a face, which stay where they are."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -201,6 +207,8 @@ class StopBandReport:
     """Vertices at non-manifold edges or points, which are neither moved nor removed."""
     unreferenced_vertices: int
     """Vertices without a face, which stay where they are."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -231,6 +239,8 @@ class EnhanceReport:
     """Vertices at non-manifold edges or points, which are neither moved nor removed."""
     unreferenced_vertices: int
     """Vertices without a face, which stay where they are."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -261,6 +271,8 @@ class EqualizerReport:
     """Vertices at non-manifold edges or points, which are neither moved nor removed."""
     unreferenced_vertices: int
     """Vertices without a face, which stay where they are."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -283,6 +295,8 @@ class UnsharpReport:
     """How far the centroid of the surface moved (mesh units)."""
     flipped_faces: int
     """Faces whose normal turned by more than 90 degrees."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -329,6 +343,8 @@ class DenoiseReport:
     """Thresholding: vertices at non-manifold edges or points."""
     unreferenced_vertices: int | None = None
     """Thresholding: vertices without a face."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -343,6 +359,8 @@ class RelaxAttributesReport:
     """The largest change of a vertex's value; of colours 0 to 255 (units of the attribute). By attribute."""
     rms_change: dict[str, float] = dataclasses.field(default_factory=dict)
     """Root of the mean square of the changes (units of the attribute). By attribute."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -361,6 +379,8 @@ class FilterAttributesReport:
     """Vertices at non-manifold edges or points, which are neither moved nor removed."""
     unreferenced_vertices: int
     """Vertices without a face, which stay where they are."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -379,6 +399,8 @@ class FilterCustomAttributesReport:
     """Vertices at non-manifold edges or points, which are neither moved nor removed."""
     unreferenced_vertices: int
     """Vertices without a face, which stay where they are."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -403,6 +425,8 @@ class DenoiseAttributesReport:
     """Vertices at non-manifold edges or points, which are neither moved nor removed."""
     unreferenced_vertices: int
     """Vertices without a face, which stay where they are."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -425,6 +449,8 @@ class GenerateTexcoordReport:
     """Vertices at non-manifold edges or points, which are neither moved nor removed."""
     unreferenced_vertices: int
     """Vertices without a face, which stay where they are."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -452,6 +478,8 @@ class AdaptiveReconstructionReport:
     """The same, relative (percent of the box diagonal)."""
     largest_distance_percent: float | None = None
     """The same, relative (percent of the box diagonal)."""
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 def build_pyramid(

@@ -1,0 +1,44 @@
+"""A thousand calls in one process: no growth, no crash at its end with a kept pyramid alive."""
+
+import json
+import subprocess
+import sys
+import textwrap
+
+from conftest import FILTERS, PLUGINS
+
+CALLS = 1000
+GROWTH = 8e6  # bytes from the 200th call to the last
+
+
+def test_a_thousand_calls_do_not_grow(tmp_path):
+    script = f"""
+        import json, os, sys
+        import numpy, pymeshlab
+        for plugin in {[str(p) for p in PLUGINS]}:
+            pymeshlab.load_plugin(plugin)
+        names = {[f["python_name"] for f in FILTERS if not f["python_name"].endswith("custom")]}
+
+        def resident():
+            with open("/proc/self/statm") as file:
+                return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+        ms = pymeshlab.MeshSet(verbose=False)
+        ms.create_sphere(subdiv=4)
+        v, f = ms.current_mesh().vertex_matrix(), ms.current_mesh().face_matrix()
+        v *= 1 + 0.05 * numpy.sin(9 * v[:, :1])
+        n = len(v)
+        sizes = []
+        for i in range({CALLS}):
+            ms.clear()
+            ms.add_mesh(pymeshlab.Mesh(v, f, v_scalar_array=v[:, 0], v_color_matrix=numpy.ones((n, 4)) * 0.5))
+            ms.apply_filter(names[i % len(names)])
+            if i % 100 == 99:
+                sizes.append(resident())
+        ms.apply_filter("compute_multires_pyramid")
+        print(json.dumps(sizes))
+    """
+    run = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    sizes = json.loads(run.stdout.splitlines()[-1])
+    assert sizes[-1] - sizes[1] < GROWTH, sizes
