@@ -4,6 +4,7 @@
 #include "transform/frame.h"
 
 #include <algorithm>
+#include <array>
 
 namespace multires {
 namespace {
@@ -62,14 +63,14 @@ private:
 
     void add(Index r, const Field& f, double* out) const {
         const int w = width(f);
-        double local[Width > 0 ? Width : 1] = {};
-        double* const sum = Width > 0 ? local : out;
+        std::array<double, std::max(Width, 1)> local{};
+        double* const sum = Width > 0 ? local.data() : out;
         std::fill_n(sum, w, 0.0);
         for (Index k = offset[r]; k < offset[r + 1]; ++k) {
             const double* v = at(f, k);
             for (int c = 0; c < w; ++c) sum[c] += weight[k] * v[c];
         }
-        if (Width > 0) std::copy_n(local, w, out);
+        if (Width > 0) std::copy_n(local.data(), w, out);
     }
 
     /// Rounded weights do not sum to 1; used as differences to the first value, they need not.
