@@ -144,10 +144,7 @@ const Plugin& table() {
             filter<DenoiseOptions>(
                 {"Multiresolution: Denoise",
                  "apply_coord_multires_denoise",
-                 std::string(
-                     "Removes noise and keeps shape, without a parameter to set. The report says how much noise "
-                     "was found at each scale and how much was taken out.<br>") +
-                     cite_roy +
+                 std::string("Removes noise and keeps shape, without a parameter to set.<br>") + cite_roy +
                      "<br>See <i>Sun, Rosin, Martin, Langbein</i>, <b>\"Fast and Effective Feature-Preserving Mesh "
                      "Denoising\"</b>, IEEE TVCG 2007.<br>See <i>Zheng, Fu, Au, Tai</i>, <b>\"Bilateral Normal "
                      "Filtering for Mesh Denoising\"</b>, IEEE TVCG 2011.",
