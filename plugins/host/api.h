@@ -20,6 +20,11 @@ using Interface = MeshFilterInterface;
 inline void update_box_and_normals(MeshModel& model) { model.UpdateBoxAndNormals(); }
 inline void delete_layer(MeshDocument& document, MeshModel& model) { document.delMesh(&model); }
 
+template <class Visit>
+void for_each_mesh(const MeshDocument& document, const Visit& visit) {
+    for (const MeshModel* model : document.meshList) visit(*model);
+}
+
 /// 2020.09 knows textures by file name only, and those are part of the vcg mesh.
 inline void copy_texture_images(MeshModel& /*to*/, const MeshModel& /*from*/) {}
 
@@ -35,6 +40,11 @@ using Interface = FilterPlugin;
 
 inline void update_box_and_normals(MeshModel& model) { model.updateBoxAndNormals(); }
 inline void delete_layer(MeshDocument& document, MeshModel& model) { document.delMesh(model.id()); }
+
+template <class Visit>
+void for_each_mesh(const MeshDocument& document, const Visit& visit) {
+    for (const MeshModel& model : document.meshIterator()) visit(model);
+}
 
 inline void copy_texture_images(MeshModel& to, const MeshModel& from) {
     for (const auto& [name, image] : from.getTextures()) to.addTexture(name, image);

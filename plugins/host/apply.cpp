@@ -139,6 +139,7 @@ RichParameterList parameters(const Filter& filter, const MeshDocument& document)
 
 void apply(const Filter& filter, const RichParameterList& list, MeshDocument& document, vcg::CallBackPos* callback,
            const std::function<void(const Report&)>& prepare) {
+    release_deleted(document);
     MeshModel& model = current_mesh(filter, document);
     const VcgLayer flat = read_layer(filter, model);
 

@@ -15,22 +15,31 @@ struct Kept {
     std::shared_ptr<const Original> original;
 };
 
-/// Where it keeps it: a named per-mesh attribute of vcg, which goes when the mesh goes and is not copied with it. It is
-/// found by name, so it is common to all our plugins in a process, although each has its own copy of this code; the
-/// name says which layout of KeptPyramid and Original it points to.
+/// Where it keeps it: a named per-mesh attribute of vcg, which is not copied with the mesh. It is found by name, so it
+/// is common to all our plugins in a process, although each has its own copy of this code; the name says which layout
+/// of KeptPyramid and Original it points to.
 ///
 /// Hosts save it in no file. A VMI file from elsewhere may hold bytes under that name, as an attribute of another type:
 /// they are never read, kept() gives nulls and Keeper puts a new slot in their place.
+///
+/// vcg meshes do not free their attributes, so the document has a list of them (a child of the QObject, by name again),
+/// and what deleted meshes kept is released at the next call of a filter, or when the document is destroyed. The
+/// attribute itself, some bytes, stays behind.
 ///
 /// The pyramid's code belongs to the plugin that built it, and hosts unload plugins before they delete meshes; our
 /// plugins are therefore linked to stay loaded (-z nodelete).
 Kept kept(const CMeshO& mesh);
 
+/// Releases what deleted meshes of the document kept. Cost: number of meshes.
+void release_deleted(const MeshDocument& document) noexcept;
+
+struct Slot;
+
 /// The slot to keep it in, made if there is none; one that was made goes again unless it is filled.
 class Keeper {
 public:
     /// @throws std::bad_alloc
-    explicit Keeper(CMeshO& mesh);
+    Keeper(MeshDocument& document, CMeshO& mesh);
     ~Keeper();
     Keeper(const Keeper&) = delete;
     Keeper& operator=(const Keeper&) = delete;
@@ -38,11 +47,13 @@ public:
     void keep(Kept what) noexcept;
 
 private:
+    void take_back() noexcept;
+
     using Attributes = std::set<vcg::PointerToAttribute>;
 
     CMeshO& mesh_;
     Attributes::node_type other_;  // of another type, in the way
-    Kept* slot_ = nullptr;
+    Slot* slot_ = nullptr;
     bool made_ = false;
 };
 

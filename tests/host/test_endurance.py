@@ -31,6 +31,7 @@ def test_a_thousand_calls_do_not_grow(tmp_path):
         sizes = []
         for i in range({CALLS}):
             ms.clear()
+            ms.clear_filter_script()  # which pymeshlab keeps, with all parameters, of every call
             ms.add_mesh(pymeshlab.Mesh(v, f, v_scalar_array=v[:, 0], v_color_matrix=numpy.ones((n, 4)) * 0.5))
             ms.apply_filter(names[i % len(names)])
             if i % 100 == 99:
