@@ -1236,10 +1236,9 @@ def denoise(
 ) -> DenoiseReport:
     """Removes noise and keeps shape, without a parameter to set.
 
-    The report says how much noise was found at each scale and how much was taken out.  See  Roy, Foufou, Koschan,
-    Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics Technologies 2003. See
-    Sun, Rosin, Martin, Langbein ,  "Fast and Effective Feature-Preserving Mesh Denoising" , IEEE TVCG 2007. See
-    Zheng, Fu, Au, Tai ,  "Bilateral Normal Filtering for Mesh Denoising" , IEEE TVCG 2011.
+    See  Roy, Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics
+    Technologies 2003. See  Sun, Rosin, Martin, Langbein ,  "Fast and Effective Feature-Preserving Mesh Denoising" ,
+    IEEE TVCG 2007. See  Zheng, Fu, Au, Tai ,  "Bilateral Normal Filtering for Mesh Denoising" , IEEE TVCG 2011.
 
     The filter apply_coord_multires_denoise, on the current mesh; the mesh is unchanged if it fails.
 
