@@ -3,22 +3,13 @@
 
 #include "filters/adaptive.h"
 #include "measure/distance.h"
-#include "shapes.h"
-
-#include <benchmark/benchmark.h>
-
-#include <map>
+#include "scans.h"
 
 namespace {
 
 using namespace multires;
-
-const Layer& scan(Index vertices) {
-    static std::map<Index, Layer> kept;
-    Layer& layer = kept[vertices];
-    if (layer.mesh.positions.empty()) layer.mesh = shapes::scan(vertices);
-    return layer;
-}
+using bench::per_vertex;
+using bench::scan;
 
 AdaptiveOptions tenth_of(const Layer& layer) {
     AdaptiveOptions o;
@@ -31,12 +22,6 @@ AdaptiveOptions tenth_of(const Layer& layer) {
 Result run(const Layer& layer, const AdaptiveOptions& o) {
     Session session;
     return adaptive_reconstruction(layer, o, session);
-}
-
-void per_vertex(benchmark::State& state, const Layer& layer) {
-    state.counters["per_vertex"] =
-        benchmark::Counter(static_cast<double>(layer.mesh.positions.size()),
-                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
 void AdaptiveHierarchy(benchmark::State& state) {

@@ -1,30 +1,15 @@
-// Cost of a pyramid and its parts per vertex, on the horse of ../shared (if it is there) and on generated scans.
+// Cost of a pyramid and its parts per vertex of generated scans.
 // MULTIRES_THREADS=1 shows one thread.
 
 #include "filters/pyramid.h"
 #include "mesh/adjacency.h"
-#include "shapes.h"
-
-#include <benchmark/benchmark.h>
-
-#include <map>
+#include "scans.h"
 
 namespace {
 
 using namespace multires;
-
-const Layer& scan(Index vertices) {
-    static std::map<Index, Layer> kept;
-    Layer& layer = kept[vertices];
-    if (layer.mesh.positions.empty()) layer.mesh = shapes::scan(vertices);
-    return layer;
-}
-
-void per_vertex(benchmark::State& state, const Layer& layer) {
-    state.counters["per_vertex"] =
-        benchmark::Counter(static_cast<double>(layer.mesh.positions.size()),
-                           benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
-}
+using bench::per_vertex;
+using bench::scan;
 
 PyramidOptions options_of(benchmark::State& state) {
     PyramidOptions o;
