@@ -20,13 +20,6 @@ namespace {
 using namespace plugin;
 using faults::Shortage;
 
-std::vector<const Filter*> filters() {
-    std::vector<const Filter*> all;
-    for (const Plugin* plugin : all_tables())
-        for (const Filter& filter : plugin->filters) all.push_back(&filter);
-    return all;
-}
-
 /// A closed surface with a boundary, a non-manifold and an unreferenced vertex, and every attribute.
 Layer small_layer() {
     Mesh mesh = shapes::irregular_sphere(42, {0.3, 0.3, 5});
@@ -162,7 +155,7 @@ TEST_P(FilterFaults, StoppingAtAnyReportEndsTheCall) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllPlugins, FilterFaults, testing::ValuesIn(filters()),
+INSTANTIATE_TEST_SUITE_P(AllPlugins, FilterFaults, testing::ValuesIn(all_filters()),
                          [](const auto& info) { return info.param->python_name; });
 
 }  // namespace multires

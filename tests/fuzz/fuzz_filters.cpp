@@ -17,12 +17,7 @@ namespace {
 using namespace plugin;
 
 const std::vector<const Filter*>& filters() {
-    static const auto all = [] {
-        std::vector<const Filter*> list;
-        for (const Plugin* plugin : all_tables())
-            for (const Filter& filter : plugin->filters) list.push_back(&filter);
-        return list;
-    }();
+    static const std::vector<const Filter*> all = all_filters();
     return all;
 }
 

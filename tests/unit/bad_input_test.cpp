@@ -20,13 +20,6 @@ using namespace plugin;
 constexpr double inf = std::numeric_limits<double>::infinity();
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-std::vector<const Filter*> filters() {
-    std::vector<const Filter*> all;
-    for (const Plugin* plugin : all_tables())
-        for (const Filter& filter : plugin->filters) all.push_back(&filter);
-    return all;
-}
-
 Layer with_data(Mesh mesh) { return fixtures::with_everything(std::move(mesh), fixtures::random_value); }
 
 Mesh sphere() { return shapes::irregular_sphere(162, {}); }
@@ -235,6 +228,6 @@ TEST_P(BadInput, AbsurdParametersWorkOrAreRefused) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllPlugins, BadInput, testing::ValuesIn(filters()), filter_name);
+INSTANTIATE_TEST_SUITE_P(AllPlugins, BadInput, testing::ValuesIn(all_filters()), filter_name);
 
 }  // namespace multires

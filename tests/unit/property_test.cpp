@@ -21,15 +21,8 @@ namespace {
 using namespace plugin;
 using fixtures::Threads;
 
-std::vector<const Filter*> filters() {
-    std::vector<const Filter*> all;
-    for (const Plugin* plugin : all_tables())
-        for (const Filter& filter : plugin->filters) all.push_back(&filter);
-    return all;
-}
-
 const Filter& filter_named(const std::string& name) {
-    for (const Filter* f : filters())
+    for (const Filter* f : all_filters())
         if (f->python_name == name) return *f;
     throw std::logic_error("no filter " + name);
 }
@@ -231,7 +224,7 @@ TEST_P(Properties, ResultsMoveTurnScaleAndMirrorWithTheMesh) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(AllPlugins, Properties, testing::ValuesIn(filters()), filter_name);
+INSTANTIATE_TEST_SUITE_P(AllPlugins, Properties, testing::ValuesIn(all_filters()), filter_name);
 
 // ---- random meshes --------------------------------------------------------------------------------------------------
 
@@ -288,7 +281,7 @@ void check_random(const Filter& filter, const Layer& layer, const Variant& varia
 TEST(RandomMeshes, EveryFilterWorksOrRefuses) {
     const std::uint64_t first = first_seed();
     std::cout << "MULTIRES_SEED=" << first << "\n";
-    const auto all = filters();
+    const auto all = all_filters();
     for (int i = 0; i < random_meshes && !testing::Test::HasFailure(); ++i) {
         const std::uint64_t seed = first + i;
         shapes::Random random(seed);
