@@ -66,9 +66,12 @@ inline void bind_pyramid(Parameters& p, PyramidOptions& o) {
               "How the pyramid keeps weights and details. Float takes half the memory, for meshes of many millions of "
               "vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.",
               0, 1, true, group});
-    p.integer("sets_per_level", o.sets_per_level,
-              {"Sets per level", "Independent sets only: how many sets make one level, 1 for the finest levels.", 1,
-               100, true, group});
+    p.integer(
+        "sets_per_level", o.sets_per_level,
+        {"Sets per level",
+         "Independent sets only: how many sets, a quarter of the vertices each, a level removes. 2 separates bands "
+         "best; 1 sees most of the noise.",
+         1, 100, true, group});
     p.real("level_ratio", o.level_ratio,
            {"Level ratio",
             "Sequential only: share of its vertices that a level keeps, for example 0.8; 0 makes every vertex a level "

@@ -36,7 +36,7 @@ struct AttributeDenoiseOptions {
     /// was measured: of noise of 20 of 255 on a swirl, a terrain and a head 13.1, 14.0, 12.0; with it 14.4, 14.0, 13.7.
     bool linear_light = false;
     Region region;
-    PyramidOptions pyramid;
+    PyramidOptions pyramid = fine_levels();
 };
 
 /// Reports for each attribute: its noise (`label`_noise, in its units), and by group of levels, finest first, the

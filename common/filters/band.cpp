@@ -100,7 +100,7 @@ double in_unit(const Layer& layer, double finest, double times, Unit unit) {
     case Unit::wavelength_percent:
         return times * finest;
     case Unit::level:
-        return std::round(4.8 * std::log2(times));
+        return std::round(2 * 4.8 / PyramidOptions().sets_per_level * std::log2(times)) / 2;
     case Unit::vertices:
         return std::round(static_cast<double>(layer.mesh.positions.size()) / (times * times));
     }

@@ -42,7 +42,7 @@ struct DenoiseOptions {
     bool confidence = false;
     Region region;
     RelativeTo relative_to = RelativeTo::current;  ///< the noise is measured there, and its volume kept
-    PyramidOptions pyramid;                        ///< for thresholding
+    PyramidOptions pyramid = fine_levels();        ///< for thresholding
 };
 
 /// Standard deviation of the noise along the normals, mesh units: median of the second-order differences over the edges

@@ -46,27 +46,6 @@ RelaxationTransformOptions transform_options(const PyramidOptions& o) {
     return t;
 }
 
-/// Sum and number of the edge lengths of some rows; summed in fixed chunks so that threads do not change it.
-struct LengthSum {
-    double sum = 0;
-    std::size_t count = 0;
-
-    void add(const Rings& rings, const Positions& p) {
-        constexpr Index chunk = 4096;
-        const Index chunks = (rings.rows() + chunk - 1) / chunk;
-        std::vector<double> part(chunks, 0);
-        parallel_for(chunks, [&](Index c) {
-            for (Index r = c * chunk; r < std::min(rings.rows(), (c + 1) * chunk); ++r) {
-                const Vec3& at = p[rings.vertex(r)];
-                for (Index j = 0; j < rings.size(r); ++j) part[c] += (p[rings.begin(r)[j]] - at).norm();
-            }
-        });
-        for (const double s : part) sum += s;
-        count += rings.neighbor.size();
-    }
-    double mean() const { return count ? sum / static_cast<double>(count) : 0; }
-};
-
 /// Only the weights are made of flaps.
 void release_flaps(Hierarchy& h) {
     for (Level& level : h.levels) level.odd.flap = level.even.flap = Array<Index>();
@@ -78,16 +57,8 @@ std::vector<double> wavelengths(const Hierarchy& h, const Faces& faces) {
     const std::size_t levels = h.levels.size() + 1;
     std::vector<double> out(levels, 0);
     const auto exact = [&](std::size_t k) {
-        LengthSum s;
-        if (k + 1 == levels) {
-            s.add(h.base, h.positions);
-        } else if (h.levels[k].even.rows() == h.levels[k].coarse && h.levels[k].independent) {
-            s.add(h.levels[k].even, h.positions);
-            s.add(h.levels[k].odd, h.positions);
-        } else {
-            return 2 * mean_edge_length(level_mesh(h, faces, k).faces, h.positions);
-        }
-        return 2 * s.mean();
+        return 2 *
+               (h.mean_edge.empty() ? mean_edge_length(level_mesh(h, faces, k).faces, h.positions) : h.mean_edge[k]);
     };
     // With thousands of levels, a few are measured and those between follow, in the logarithm.
     constexpr std::size_t most = 64;
@@ -106,17 +77,20 @@ std::vector<double> wavelengths(const Hierarchy& h, const Faces& faces) {
     return out;
 }
 
-double rms_length(const Coefficients::Detail& stored) {
-    const Coefficients::Detail wide = stored.odd_single.empty() ? Coefficients::Detail() : widened(stored, 3);
-    const Coefficients::Detail& d = stored.odd_single.empty() ? stored : wide;
-    double sum = 0;
-    for (const Field* f : {&d.odd, &d.even})
-        for (Index r = 0; r < f->rows(); ++r) {
-            const double* v = f->row(r);
-            sum += v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-        }
-    const Index rows = d.odd.rows() + d.even.rows();
-    return rows ? std::sqrt(sum / rows) : 0;
+template <class Values>
+double sum_of_squares(const Values& values) {
+    return chunked_reduce<double>(values.size(), [&](std::size_t begin, std::size_t end) {
+        double sum = 0;
+        for (std::size_t i = begin; i < end; ++i) sum += static_cast<double>(values[i]) * values[i];
+        return sum;
+    });
+}
+
+double rms_length(const Coefficients::Detail& d) {
+    const double sum = sum_of_squares(d.odd.values) + sum_of_squares(d.even.values) + sum_of_squares(d.odd_single) +
+                       sum_of_squares(d.even_single);
+    const std::size_t values = d.odd.values.size() + d.even.values.size() + d.odd_single.size() + d.even_single.size();
+    return values ? std::sqrt(sum / (static_cast<double>(values) / 3)) : 0;
 }
 
 std::vector<LevelInfo> describe(const Hierarchy& h, const Coefficients& c, const Faces& faces) {

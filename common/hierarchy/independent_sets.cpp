@@ -1,6 +1,7 @@
 #include "hierarchy/independent_sets.h"
 
 #include "hierarchy/collapse.h"
+#include "measure/reduce.h"
 #include "mesh/radix_sort.h"
 #include "parallel/parallel.h"
 
@@ -202,6 +203,17 @@ private:
     Index odd_ = 0;
 };
 
+/// Mean length of the edges in the rings, those on the boundary counted as any other.
+double mean_edge(const Rings& rings, const Positions& p) {
+    const auto sum = chunked_reduce<double>(rings.rows(), [&](std::size_t begin, std::size_t end) {
+        double lengths = 0;
+        for (Index i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i)
+            for (Index j = 0; j < rings.size(i); ++j) lengths += (p[rings.begin(i)[j]] - p[i]).norm();
+        return lengths;
+    });
+    return rings.neighbor.empty() ? 0 : sum / static_cast<double>(rings.neighbor.size());
+}
+
 /// Numbers even and odd vertices in their order.
 void number(const Array<Index>& parent, Index odd, Step& step) {
     const Index n = static_cast<Index>(parent.size());
@@ -278,6 +290,8 @@ std::vector<Step> independent_sets(Rings rings, Positions positions, const Hiera
         number(selection.parent(), selection.odd(), step);
         State t;
         if (selection.odd() > 0) t = next_state(s, step, selection.degree(), options);
+        if (steps.size() % options.sets_per_level == 0 || selection.odd() == 0)
+            step.mean_edge = mean_edge(s.rings, s.positions);
         step.rings = std::move(s.rings);
         steps.push_back(std::move(step));
         if (selection.odd() == 0) return steps;

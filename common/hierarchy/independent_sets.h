@@ -9,9 +9,10 @@ namespace multires {
 /// One step of decimation: a maximal independent set of vertices collapsed at once. Vertices have local numbers,
 /// kept in the order of the input.
 struct Step {
-    Rings rings;          ///< before the step
-    Array<Index> code;    ///< number of an even vertex among the even ones, ~number of an odd one among the odd ones
-    Array<Index> parent;  ///< of the odd vertices
+    Rings rings;           ///< before the step
+    Array<Index> code;     ///< number of an even vertex among the even ones, ~number of an odd one among the odd ones
+    Array<Index> parent;   ///< of the odd vertices
+    double mean_edge = 0;  ///< mean length of the rings' entries, of steps that begin a level
 };
 
 /// Decimates down to options.base_vertices; the last Step has no odd vertices and holds the base's rings.

@@ -167,12 +167,26 @@ private:
             if (alive_[i]) record(even_, i), even_vertex_.push_back(i);
     }
 
+    /// Level::sets of rows in order of insertion: each as long as no row refers to another of it.
+    static std::vector<Index> sets_of(const Rings& odd) {
+        std::vector<Index> sets{0};
+        for (Index r = 0; r < odd.rows(); ++r) {
+            const auto in_set = [&](Index place) { return place >= odd.first + sets.back(); };
+            const auto begin = odd.offset[r], end = odd.offset[r + 1];
+            bool refers = false;
+            for (Index k = begin; k < end; ++k)
+                refers |= in_set(odd.neighbor[k]) || (!odd.flap.empty() && in_set(odd.flap[k]));
+            if (refers) sets.push_back(r);
+        }
+        sets.push_back(odd.rows());
+        return sets;
+    }
+
     /// Stores the level in local numbers; number() turns them into places.
     void end_level() {
         Level level;
         level.fine = h_.size.back();
         level.coarse = left_;
-        level.independent = single();
         level.odd = std::move(odd_);
         level.even = std::move(even_);
         level.even.vertices = even_vertex_;
@@ -197,6 +211,7 @@ private:
             for (Index r = 0; r < level.odd.rows(); ++r) rows[r] = level.odd.rows() - 1 - r;
             level.odd = renumbered(level.odd, rows, place, level.fine);
             level.odd.first = level.coarse;
+            level.sets = sets_of(level.odd);
 
             rows.clear();
             for (Index r = 0; r < level.even.rows(); ++r)

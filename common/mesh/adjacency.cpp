@@ -194,11 +194,11 @@ Rings vertex_rings(const Mesh& mesh) {
     return rings;
 }
 
-void find_flaps(Rings& rings) {
+void find_flaps(Rings& rings, const Array<Index>* rows) {
     rings.flap.resize(rings.neighbor.size());
     const bool features = !rings.feature.empty();
-    parallel_for(rings.rows(), [&](Index i) {
-        const Index d = rings.size(i);
+    parallel_for(rows ? static_cast<Index>(rows->size()) : rings.rows(), [&](Index k) {
+        const Index i = rows ? (*rows)[k] : k, d = rings.size(i);
         const Index* const r = rings.begin(i);
         Index* const flap = rings.flap.data() + rings.offset[i];
         if (rings.kind[i] != RingKind::closed || features) {

@@ -21,7 +21,8 @@ Rings vertex_rings(const Mesh& mesh);
 
 /// Fills Rings::flap of rows that together hold every vertex (row i = vertex i): the vertex across each link edge,
 /// -1 if the link edge lies on the boundary, is a feature, or touches an irregular vertex on both ends.
-void find_flaps(Rings& rings);
+/// @param rows  if given, only these get theirs; those of the others are not set
+void find_flaps(Rings& rings, const Array<Index>* rows = nullptr);
 
 /// Marks as features the edges whose faces' normals differ by more than `degrees` (Rings::feature). Boundary edges
 /// are not features. Both ends of an edge get the same mark.

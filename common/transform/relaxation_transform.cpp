@@ -244,7 +244,7 @@ private:
     }
 
     /// Predicts every odd vertex from g and hands (row, prediction, frame or null) to `take`, which may write g at that
-    /// vertex. In order where odd vertices depend on each other.
+    /// vertex. One set of odd vertices after the other.
     template <class Take>
     void predict_odd(std::size_t k, const Field& g, const Take& take) const {
         switch (g.width) {
@@ -277,10 +277,9 @@ private:
             if (frames) frame = frame_of(level.odd, r, g);
             take(r, predicted, frames ? &frame : nullptr);
         };
-        if (level.independent) {
-            parallel_for(level.odd.rows(), [&](Index r) { one(r); });
-        } else {
-            for (Index r = 0; r < level.odd.rows(); ++r) one(r);
+        for (std::size_t s = 0; s + 1 < level.sets.size(); ++s) {
+            const Index first = level.sets[s];
+            parallel_for(level.sets[s + 1] - first, [&](Index r) { one(first + r); });
         }
     }
 

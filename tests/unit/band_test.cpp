@@ -14,7 +14,7 @@ const Layer& layer() {
 }
 
 const KeptPyramid& pyramid() {
-    static const KeptPyramid p(layer(), PyramidOptions(), Progress());
+    static const KeptPyramid p(layer(), fine_levels(), Progress());
     return p;
 }
 

@@ -66,7 +66,8 @@ inline void expect_numbering(const Hierarchy& h, const Mesh& mesh, const Hierarc
         ASSERT_EQ(level.odd.rows(), level.fine - level.coarse);
         ASSERT_EQ(level.odd.first, level.coarse);
         for (Index r = 0; r < level.odd.rows(); ++r) {
-            const Index p = level.odd.vertex(r), below = level.independent ? level.coarse : p;
+            const Index p = level.odd.vertex(r),
+                        below = level.coarse + *(std::upper_bound(level.sets.begin(), level.sets.end(), r) - 1);
             const Index* begin = level.odd.begin(r);
             ASSERT_TRUE(std::count(begin, begin + level.odd.size(r), h.parent[p])) << "parent is no neighbour";
             for (Index j = 0; j < level.odd.size(r); ++j) {
@@ -171,7 +172,7 @@ inline void expect_normals(const Hierarchy& h, const Mesh& mesh, double limit_de
         }
     };
     for (const Level& level : h.levels)
-        if (level.independent && level.odd.rows() > 1)
+        if (level.independent() && level.odd.rows() > 1)
             compare(level.fine, level.coarse);
         else
             for (Index p = level.coarse; p < level.fine; ++p)
@@ -190,7 +191,7 @@ inline void expect_marks_agree(const Hierarchy& h) {
                 }
     };
     for (std::size_t k = 0; k < h.levels.size(); ++k) {
-        if (h.levels[k].independent && h.levels[k].even.rows() == h.levels[k].coarse)
+        if (h.levels[k].independent() && h.levels[k].even.rows() == h.levels[k].coarse)
             agree({&h.levels[k].even, &h.levels[k].odd}, k);
         else
             agree({&h.levels[k].even}, k);

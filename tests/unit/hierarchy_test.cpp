@@ -113,7 +113,7 @@ TEST(Hierarchy, MoreSetsPerLevelGroupTheSameCollapses) {
     EXPECT_EQ(one.parent, three.parent);
     for (std::size_t k = 0; k < three.size.size(); ++k)
         EXPECT_EQ(three.size[k], one.size[std::min(3 * k, one.size.size() - 1)]);
-    EXPECT_FALSE(three.levels[0].independent);
+    EXPECT_EQ(three.levels[0].sets.size(), 4u);
 }
 
 TEST(Hierarchy, SequentialGroupingsCutOneSequence) {

@@ -82,7 +82,7 @@ TEST(KeptPyramid, IsNeverReusedAfterAChangeOfItsOptions) {
         [](PyramidOptions& o) { o.op = Operator::cotangent; },
         [](PyramidOptions& o) { o.presmooth = 0.25; },
         [](PyramidOptions& o) { o.grouping = Grouping::sequential; },
-        [](PyramidOptions& o) { o.sets_per_level = 2; },
+        [](PyramidOptions& o) { o.sets_per_level = 3; },
         [](PyramidOptions& o) { o.level_ratio = 0.5; },
         [](PyramidOptions& o) { o.base_vertices = 99; },
         [](PyramidOptions& o) { o.length_weight = 0.2; },

@@ -490,7 +490,7 @@ def build_pyramid(
     presmooth: float = 0.5,
     grouping: Grouping = "independent sets",
     storage: Storage = "double",
-    sets_per_level: int = 1,
+    sets_per_level: int = 2,
     level_ratio: float = 0.0,
     base_vertices: int = 100,
     length_weight: float = 0.1,
@@ -522,8 +522,8 @@ def build_pyramid(
             neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
         storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
             millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets make one level, 1 for the finest
-            levels. A whole number, 1 to 100.
+        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
+            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
         level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
             makes every vertex a level of its own. A number, 0 to 0.99.
         base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
@@ -564,7 +564,7 @@ def level_as_layer(
     presmooth: float = 0.5,
     grouping: Grouping = "independent sets",
     storage: Storage = "double",
-    sets_per_level: int = 1,
+    sets_per_level: int = 2,
     level_ratio: float = 0.0,
     base_vertices: int = 100,
     length_weight: float = 0.1,
@@ -598,8 +598,8 @@ def level_as_layer(
             neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
         storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
             millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets make one level, 1 for the finest
-            levels. A whole number, 1 to 100.
+        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
+            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
         level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
             makes every vertex a level of its own. A number, 0 to 0.99.
         base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
@@ -645,7 +645,7 @@ def detail_to_quality(
     presmooth: float = 0.5,
     grouping: Grouping = "independent sets",
     storage: Storage = "double",
-    sets_per_level: int = 1,
+    sets_per_level: int = 2,
     level_ratio: float = 0.0,
     base_vertices: int = 100,
     length_weight: float = 0.1,
@@ -685,8 +685,8 @@ def detail_to_quality(
             neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
         storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
             millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets make one level, 1 for the finest
-            levels. A whole number, 1 to 100.
+        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
+            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
         level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
             makes every vertex a level of its own. A number, 0 to 0.99.
         base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
@@ -736,7 +736,7 @@ def low_pass(
     presmooth: float = 0.5,
     grouping: Grouping = "independent sets",
     storage: Storage = "double",
-    sets_per_level: int = 1,
+    sets_per_level: int = 2,
     level_ratio: float = 0.0,
     base_vertices: int = 100,
     length_weight: float = 0.1,
@@ -781,8 +781,8 @@ def low_pass(
             neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
         storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
             millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets make one level, 1 for the finest
-            levels. A whole number, 1 to 100.
+        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
+            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
         level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
             makes every vertex a level of its own. A number, 0 to 0.99.
         base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
@@ -834,7 +834,7 @@ def stop_band(
     presmooth: float = 0.5,
     grouping: Grouping = "independent sets",
     storage: Storage = "double",
-    sets_per_level: int = 1,
+    sets_per_level: int = 2,
     level_ratio: float = 0.0,
     base_vertices: int = 100,
     length_weight: float = 0.1,
@@ -882,8 +882,8 @@ def stop_band(
             neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
         storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
             millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets make one level, 1 for the finest
-            levels. A whole number, 1 to 100.
+        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
+            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
         level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
             makes every vertex a level of its own. A number, 0 to 0.99.
         base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
@@ -937,7 +937,7 @@ def enhance(
     presmooth: float = 0.5,
     grouping: Grouping = "independent sets",
     storage: Storage = "double",
-    sets_per_level: int = 1,
+    sets_per_level: int = 2,
     level_ratio: float = 0.0,
     base_vertices: int = 100,
     length_weight: float = 0.1,
@@ -988,8 +988,8 @@ def enhance(
             neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
         storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
             millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets make one level, 1 for the finest
-            levels. A whole number, 1 to 100.
+        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
+            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
         level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
             makes every vertex a level of its own. A number, 0 to 0.99.
         base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
@@ -1048,7 +1048,7 @@ def equalizer(
     presmooth: float = 0.5,
     grouping: Grouping = "independent sets",
     storage: Storage = "double",
-    sets_per_level: int = 1,
+    sets_per_level: int = 2,
     level_ratio: float = 0.0,
     base_vertices: int = 100,
     length_weight: float = 0.1,
@@ -1103,8 +1103,8 @@ def equalizer(
             neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
         storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
             millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets make one level, 1 for the finest
-            levels. A whole number, 1 to 100.
+        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
+            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
         level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
             makes every vertex a level of its own. A number, 0 to 0.99.
         base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
@@ -1284,8 +1284,8 @@ def denoise(
             neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
         storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
             millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets make one level, 1 for the finest
-            levels. A whole number, 1 to 100.
+        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
+            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
         level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
             makes every vertex a level of its own. A number, 0 to 0.99.
         base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
@@ -1435,7 +1435,7 @@ def filter_attributes(
     presmooth: float = 0.5,
     grouping: Grouping = "independent sets",
     storage: Storage = "double",
-    sets_per_level: int = 1,
+    sets_per_level: int = 2,
     level_ratio: float = 0.0,
     base_vertices: int = 100,
     length_weight: float = 0.1,
@@ -1489,8 +1489,8 @@ def filter_attributes(
             neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
         storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
             millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets make one level, 1 for the finest
-            levels. A whole number, 1 to 100.
+        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
+            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
         level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
             makes every vertex a level of its own. A number, 0 to 0.99.
         base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
@@ -1551,7 +1551,7 @@ def filter_custom_attributes(
     presmooth: float = 0.5,
     grouping: Grouping = "independent sets",
     storage: Storage = "double",
-    sets_per_level: int = 1,
+    sets_per_level: int = 2,
     level_ratio: float = 0.0,
     base_vertices: int = 100,
     length_weight: float = 0.1,
@@ -1603,8 +1603,8 @@ def filter_custom_attributes(
             neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
         storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
             millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets make one level, 1 for the finest
-            levels. A whole number, 1 to 100.
+        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
+            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
         level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
             makes every vertex a level of its own. A number, 0 to 0.99.
         base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
@@ -1717,8 +1717,8 @@ def denoise_attributes(
             neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
         storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
             millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets make one level, 1 for the finest
-            levels. A whole number, 1 to 100.
+        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
+            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
         level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
             makes every vertex a level of its own. A number, 0 to 0.99.
         base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
@@ -1773,7 +1773,7 @@ def generate_texcoord(
     presmooth: float = 0.5,
     grouping: Grouping = "independent sets",
     storage: Storage = "double",
-    sets_per_level: int = 1,
+    sets_per_level: int = 2,
     level_ratio: float = 0.0,
     base_vertices: int = 100,
     length_weight: float = 0.1,
@@ -1809,8 +1809,8 @@ def generate_texcoord(
             neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
         storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
             millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets make one level, 1 for the finest
-            levels. A whole number, 1 to 100.
+        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
+            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
         level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
             makes every vertex a level of its own. A number, 0 to 0.99.
         base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
