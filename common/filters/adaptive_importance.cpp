@@ -47,18 +47,36 @@ std::vector<double> quadric_details(const Layer& layer, const Hierarchy& h, Crit
     return detail;
 }
 
-/// Calls visit(place, columns, weights, count) for every removed vertex; count is 0 if it is predicted by its parent.
+/// The row that predicts a removed vertex.
+struct Prediction {
+    const Rings& rings;
+    const RingWeights& weights;
+    Index row, parent;
+    bool kept;  ///< by its parent alone
+
+    /// Calls term(place, weight).
+    template <class Term>
+    void each(const Term& term) const {
+        if (kept) return term(parent, 1.0);
+        for (Index k = rings.offset[row]; k < rings.offset[row + 1]; ++k) {
+            term(rings.neighbor[k], weights.weight[k]);
+            if (!weights.flap_weight.empty()) term(rings.flap[k], weights.flap_weight[k]);
+        }
+    }
+};
+
+/// Calls visit(place, prediction) for every removed vertex.
 template <class Visit>
 void for_each_prediction(const Hierarchy& h, Operator op, const Visit& visit) {
     RelaxationOptions options;
     options.op = op;
     for (const Level& level : h.levels) {
-        const Rows rows = relaxation(level.odd, h.positions, options);
+        const RingWeights weights = ring_weights(level.odd, h.positions, options);
         std::vector<std::uint8_t> kept(level.odd.rows(), 0);
-        for (const Index r : rows.kept) kept[r] = 1;
+        for (const Index r : weights.kept) kept[r] = 1;
         parallel_for(level.odd.rows(), [&](Index r) {
-            const Index begin = rows.offset[r], count = kept[r] ? 0 : rows.offset[r + 1] - begin;
-            visit(level.odd.vertex(r), rows.column.data() + begin, rows.weight.data() + begin, count);
+            const Index place = level.odd.vertex(r);
+            visit(place, Prediction{level.odd, weights, r, h.parent[place], kept[r] != 0});
         });
     }
 }
@@ -66,12 +84,11 @@ void for_each_prediction(const Hierarchy& h, Operator op, const Visit& visit) {
 /// Lengths of the details of a field over places: f - R f where the vertex is removed.
 std::vector<double> field_details(const Hierarchy& h, const Field& f, Operator op) {
     std::vector<double> detail(h.vertices(), 0);
-    for_each_prediction(h, op, [&](Index p, const Index* column, const double* weight, Index count) {
+    for_each_prediction(h, op, [&](Index p, const Prediction& prediction) {
         double square = 0;
         for (int c = 0; c < f.width; ++c) {
             double d = f.row(p)[c];
-            if (count == 0) d -= f.row(h.parent[p])[c];
-            for (Index j = 0; j < count; ++j) d -= weight[j] * f.row(column[j])[c];
+            prediction.each([&](Index q, double weight) { d -= weight * f.row(q)[c]; });
             square += d * d;
         }
         detail[p] = std::sqrt(square);
@@ -91,7 +108,7 @@ std::vector<double> wedge_details(const Layer& layer, const Hierarchy& h, Operat
                 list.push_back(w);
         }
     std::vector<double> detail(h.vertices(), 0);
-    for_each_prediction(h, op, [&](Index p, const Index* column, const double* weight, Index count) {
+    for_each_prediction(h, op, [&](Index p, const Prediction& prediction) {
         for (const Wedge& own : at[h.order[p]]) {
             double u = own.u, v = own.v;
             const auto subtract = [&](Index q, double factor) {
@@ -101,8 +118,7 @@ std::vector<double> wedge_details(const Layer& layer, const Hierarchy& h, Operat
                     if (!nearest || distance(w) < distance(*nearest)) nearest = &w;
                 u -= factor * nearest->u, v -= factor * nearest->v;
             };
-            if (count == 0) subtract(h.parent[p], 1);
-            for (Index j = 0; j < count; ++j) subtract(column[j], weight[j]);
+            prediction.each(subtract);
             detail[p] = std::max(detail[p], std::hypot(u, v));
         }
     });

@@ -22,7 +22,7 @@ void check(const AttributeRelaxationOptions& o) {
 /// The operator on a mesh, and how much of each step its vertices take.
 struct Relaxation {
     Rings rings;
-    Rows rows;
+    RingWeights weights;
     std::vector<double> step;  ///< #V, 0 where the value is kept
 };
 
@@ -43,7 +43,7 @@ Relaxation make_relaxation(const Layer& layer, const AttributeRelaxationOptions&
     if (uses_flaps(options.op)) find_flaps(r.rings);
     RelaxationOptions relaxation_options;
     relaxation_options.op = options.op;
-    r.rows = relaxation(r.rings, p, relaxation_options);
+    r.weights = ring_weights(r.rings, p, relaxation_options);
 
     const double least_cosine = std::cos(options.corner_angle * std::acos(-1.0) / 180);
     r.step.resize(p.size());
@@ -54,20 +54,24 @@ Relaxation make_relaxation(const Layer& layer, const AttributeRelaxationOptions&
         const Vec3 in = p[v] - p[a], out = p[b] - p[v];
         if (in.dot(out) < least_cosine * in.norm() * out.norm()) r.step[v] = 0;
     });
-    for (const Index v : r.rows.kept) r.step[v] = 0;
+    for (const Index v : r.weights.kept) r.step[v] = 0;
     return r;
 }
 
 /// One step. Differences are summed, not values: where all neighbours agree nothing moves, not even by rounding.
 template <int Width>
 void take_step(const Relaxation& r, const std::vector<double>& step, const Field& f, Field& out) {
+    const bool flaps = !r.weights.flap_weight.empty();
     parallel_for(r.rings.rows(), [&](Index v) {
         const double* here = f.row(v);
         double sum[Width] = {};
+        const auto add = [&](double weight, const double* there) {
+            for (int c = 0; c < Width; ++c) sum[c] += weight * (there[c] - here[c]);
+        };
         if (step[v] > 0)
-            for (Index k = r.rows.offset[v]; k < r.rows.offset[v + 1]; ++k) {
-                const double* there = f.row(r.rows.column[k]);
-                for (int c = 0; c < Width; ++c) sum[c] += r.rows.weight[k] * (there[c] - here[c]);
+            for (Index k = r.rings.offset[v]; k < r.rings.offset[v + 1]; ++k) {
+                add(r.weights.weight[k], f.row(r.rings.neighbor[k]));
+                if (flaps) add(r.weights.flap_weight[k], f.row(r.rings.flap[k]));
             }
         for (int c = 0; c < Width; ++c) out.row(v)[c] = here[c] + step[v] * sum[c];
     });

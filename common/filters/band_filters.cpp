@@ -122,7 +122,7 @@ Result unsharp(const Layer& layer, const UnsharpOptions& options, Session& sessi
     if (uses_flaps(options.op)) find_flaps(rings);
     RelaxationOptions relaxation_options;
     relaxation_options.op = options.op;
-    const Rows rows = relaxation(rings, mesh.positions, relaxation_options);
+    const RingWeights rows = ring_weights(rings, mesh.positions, relaxation_options);
     Positions smooth = mesh.positions, next = smooth;
     for (int i = 0; i < options.iterations; ++i) {
         session.progress.report(0.2 + 0.7 * i / options.iterations, "Relaxing");

@@ -46,12 +46,6 @@ RelaxationTransformOptions transform_options(const PyramidOptions& o) {
     return t;
 }
 
-/// Only the weights are made of flaps.
-void release_flaps(Hierarchy& h) {
-    for (Level& level : h.levels) level.odd.flap = level.even.flap = Array<Index>();
-    h.base.flap = Array<Index>();
-}
-
 /// Twice the mean edge length of every level.
 std::vector<double> wavelengths(const Hierarchy& h, const Faces& faces) {
     const std::size_t levels = h.levels.size() + 1;
@@ -186,7 +180,6 @@ KeptPyramid::KeptPyramid(const Layer& layer, const PyramidOptions& options, cons
     progress.report(0.6, "Computing weights");
     transform_ = relaxation_transform(hierarchy_, transform_options(options));
     progress.report(0.8, "Computing details");
-    release_flaps(hierarchy_);
     coefficients_ = transform_->analyse(field_of(hierarchy_.positions), options.storage);
     levels_ = describe(hierarchy_, coefficients_, layer.mesh.faces);
     progress.report(1, "Pyramid built");

@@ -51,7 +51,6 @@ class KeptPyramid {
 public:
     KeptPyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress);
 
-    /// Without flaps.
     const Hierarchy& hierarchy() const { return hierarchy_; }
     const Transform& transform() const { return *transform_; }
     const Coefficients& coefficients() const { return coefficients_; }  ///< see widened()

@@ -23,7 +23,7 @@ Rings renumbered(const Rings& rings, const Array<Index>& from, const Array<Index
         if (rings.flap.empty()) return;
         for (Index j = 0; j < size; ++j) {
             const Index flap = rings.flap[source + j];
-            out.flap[to + j] = flap >= 0 && place[flap] < limit ? place[flap] : -1;
+            out.flap[to + j] = place[flap] < limit ? place[flap] : out.neighbor[to + j];
         }
     });
     return out;

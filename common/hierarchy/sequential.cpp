@@ -145,8 +145,12 @@ private:
         table.kind.push_back(r.kind);
     }
 
-    Index flap(Index v, Index a, Index b) const {
-        if (b < 0) return -1;
+    Index flap(Index v, const Index a, const Index b) const {
+        const Index beyond = b < 0 ? -1 : beyond_edge(v, a, b);
+        return beyond >= 0 ? beyond : a;
+    }
+
+    Index beyond_edge(Index v, Index a, Index b) const {
         if (rows_[a].vertex.empty()) std::swap(a, b);
         const Ring r = ring(a);
         const Index j = r.find(b);

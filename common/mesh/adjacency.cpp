@@ -157,12 +157,13 @@ Index beside(const Rings& rings, Index a, Index b, Index not_this) {
     return before == not_this ? after : before;
 }
 
-/// The flap of the link from entry j of row i to the next, -1 if there is none.
+/// The flap of the link from entry j of row i to the next, that entry itself if there is none.
 Index flap_of(const Rings& rings, Index i, Index j) {
-    const Index d = rings.size(i);
-    if (j + 1 == d && rings.kind[i] != RingKind::closed) return -1;
-    const Index a = rings.begin(i)[j], b = rings.begin(i)[j + 1 < d ? j + 1 : 0];
-    return rings.size(a) > 0 ? beside(rings, a, b, i) : beside(rings, b, a, i);
+    const Index d = rings.size(i), a = rings.begin(i)[j];
+    if (j + 1 == d && rings.kind[i] != RingKind::closed) return a;
+    const Index b = rings.begin(i)[j + 1 < d ? j + 1 : 0];
+    const Index flap = rings.size(a) > 0 ? beside(rings, a, b, i) : beside(rings, b, a, i);
+    return flap >= 0 ? flap : a;
 }
 
 }  // namespace

@@ -19,8 +19,8 @@ namespace multires {
 /// Cost: linear in the mesh, O(d log d) for a vertex of valence d.
 Rings vertex_rings(const Mesh& mesh);
 
-/// Fills Rings::flap of rows that together hold every vertex (row i = vertex i): the vertex across each link edge,
-/// -1 if the link edge lies on the boundary, is a feature, or touches an irregular vertex on both ends.
+/// Fills Rings::flap of rows that together hold every vertex (row i = vertex i): the vertex across each link edge;
+/// none if the link edge lies on the boundary, is a feature, or touches an irregular vertex on both ends.
 /// @param rows  if given, only these get theirs; those of the others are not set
 void find_flaps(Rings& rings, const Array<Index>* rows = nullptr);
 

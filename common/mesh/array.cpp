@@ -9,6 +9,7 @@
 namespace multires::array_detail {
 namespace {
 
+constexpr std::size_t slack = 32;
 constexpr std::size_t huge_page = std::size_t{2} << 20, least_mapped = 2 * huge_page;
 
 #ifdef __linux__
@@ -32,6 +33,7 @@ void* map(std::size_t bytes) {
 }  // namespace
 
 void* allocate(std::size_t bytes) {
+    bytes += slack;
 #ifdef __linux__
     if (bytes >= least_mapped) return map(bytes);
 #endif
@@ -40,8 +42,8 @@ void* allocate(std::size_t bytes) {
 
 void release(void* memory, std::size_t bytes) noexcept {
 #ifdef __linux__
-    if (bytes >= least_mapped) {
-        munmap(memory, mapped_size(bytes));
+    if (bytes + slack >= least_mapped) {
+        munmap(memory, mapped_size(bytes + slack));
         return;
     }
 #endif

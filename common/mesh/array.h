@@ -10,7 +10,8 @@
 namespace multires {
 
 namespace array_detail {
-/// Memory for an array. Blocks of 4 megabytes and more are asked to be made of huge pages.
+/// Memory for an array, and 32 bytes more that may be read (not used): loops that take a vector of numbers at a time
+/// need not stop short of the end. Blocks of 4 megabytes and more are asked to be made of huge pages.
 void* allocate(std::size_t bytes);  ///< throws std::bad_alloc
 void release(void* memory, std::size_t bytes) noexcept;
 }  // namespace array_detail

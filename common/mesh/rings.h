@@ -25,7 +25,9 @@ enum class RingKind : std::uint8_t {
 struct Rings {
     Array<Index> offset{0};  ///< #rows+1
     Array<Index> neighbor;   ///< #entries
-    Array<Index> flap;       ///< #entries or empty: vertex beyond the link edge (j, j+1); -1: none, or a feature edge
+    /// #entries or empty: vertex beyond the link edge (j, j+1); neighbour j itself if there is none or the edge is a
+    /// feature, so that sums over flaps need not ask.
+    Array<Index> flap;
     Array<std::uint8_t> feature;  ///< #entries or empty: 1 if the edge (vertex, neighbor) is a feature edge
     Array<RingKind> kind;         ///< #rows
     Array<Index> vertices;        ///< #rows or empty: vertex of each row; empty if row r belongs to vertex first+r
@@ -34,6 +36,7 @@ struct Rings {
     Index rows() const { return static_cast<Index>(kind.size()); }
     Index vertex(Index row) const { return vertices.empty() ? first + row : vertices[row]; }
     Index size(Index row) const { return offset[row + 1] - offset[row]; }
+    bool has_flap(Index entry) const { return flap[entry] != neighbor[entry]; }
     const Index* begin(Index row) const { return neighbor.data() + offset[row]; }
 };
 

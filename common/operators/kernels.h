@@ -17,16 +17,15 @@ bool cotangent_delaunay(StarGeometry& star, double* weight);
 
 /// What the second-order differences across link edges need.
 struct Flaps {
-    const Index* vertex;  ///< #size, -1 for none
-    const Index* slot;    ///< #size: entry of the row that flap j adds to
+    const Index* vertex;  ///< #size, as Rings::flap
     const Positions* positions;
     Vec3 center;  ///< position of the star's vertex
     double degenerate;
+    double* weight;  ///< #size, written
 };
 
 /// Least squares of the second-order differences over the spokes that are no features (Guskov 1999, eq. 3), and over
-/// the link edges too if flaps are given. Writes `columns` >= size weights. Uses the star's scratch.
-bool second_difference(StarGeometry& star, const std::uint8_t* feature, const Flaps* flaps, Index columns,
-                       double* weight);
+/// the link edges too if flaps are given; all weights together sum to 1. Uses the star's scratch.
+bool second_difference(StarGeometry& star, const std::uint8_t* feature, const Flaps* flaps, double* weight);
 
 }  // namespace multires::kernels

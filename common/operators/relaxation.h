@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mesh/rings.h"
+#include "operators/row_sums.h"
 #include "operators/star.h"
 
 #include <vector>
@@ -23,7 +24,7 @@
 /// - Feature edges: the second-order differences across them are left out of the sum (Guskov 1999, section 2.3). For
 ///   the other operators a vertex with exactly two feature spokes is relaxed along the crease as if it were a
 ///   boundary; with one, or more than two, it is a corner and kept. A link edge that is a feature is given by a flap
-///   of -1.
+///   that is none (see Rings::flap).
 /// - Degenerate triangles, those with 2 area <= `degenerate` x (sum of squared edge lengths), are left out.
 /// - Rows that would magnify rounding, sum_k |weight_k| > `largest_norm`, and closed rings of which nothing is left
 ///   get the weights of cotangent_delaunay instead, or, if all triangles are degenerate, weights inverse to the edge
@@ -67,47 +68,33 @@ struct RelaxationOptions {
     double smallest_angle = 1;
 };
 
-/// True if the stencil is more than the 1-ring, so that ring_weights() cannot hold it.
+/// True if the stencil is more than the 1-ring, so that the rings need Rings::flap.
 constexpr bool uses_flaps(Operator op) { return op == Operator::second_difference_flaps; }
 
-/// Weights on the entries of some Rings.
+/// Weights on the entries of some Rings and, for operators that use them, on their flaps.
 struct RingWeights {
-    Array<double> weight;     ///< #entries, aligned with Rings::neighbor; zeros in the rows kept
-    std::vector<Index> kept;  ///< ascending: the rows whose vertex keeps its value
+    Array<double> weight;       ///< #entries, aligned with Rings::neighbor; zeros in the rows kept
+    Array<double> flap_weight;  ///< #entries, aligned with Rings::flap, or empty; 0 where there is no flap
+    std::vector<Index> kept;    ///< ascending: the rows whose vertex keeps its value
 };
 
-/// Sparse rows with columns of their own, aligned with the rows of some Rings.
-struct Rows {
-    Array<Index> offset{0};   ///< #rows+1
-    Array<Index> column;      ///< #entries: vertices; within a row, those with a weight all differ
-    Array<double> weight;     ///< #entries; zeros in the rows kept
-    std::vector<Index> kept;  ///< ascending: the rows whose vertex keeps its value
-};
-
-/// The weights of an operator whose stencil is the 1-ring.
+/// The weights of an operator.
 /// @param positions  #V by 3, finite, indexed by the vertices that the rings name
-/// @throws std::invalid_argument if the operator uses flaps (our bug, not the user's)
+/// @throws std::invalid_argument if the operator uses flaps and the rings have none (our bug, not the user's)
 /// Cost: O(entries), parallel over rows; the result does not depend on the number of threads.
 RingWeights ring_weights(const Rings& rings, const Positions& positions, const RelaxationOptions& options = {});
 
-/// The rows of any operator. The columns of a row are the ring in its order, then the flap vertices that are not in the
-/// ring, in the order they first occur; a flap that had a column already leaves an entry of weight 0 at the end. Other
-/// operators than those with flaps have the ring only.
-/// @param positions  as above
-/// @throws std::invalid_argument if the operator uses flaps and the rings have none
-/// Cost: as above; rows longer than 64 hash their flaps.
-Rows relaxation(const Rings& rings, const Positions& positions, const RelaxationOptions& options = {});
+/// View of both, for row_sums().
+RowWeights row_weights(const Rings& rings, const RingWeights& weights);
 
 /// R f at the vertices that have a row, f elsewhere.
 /// @param f  #V by 3
 /// Cost: O(V + entries), parallel over rows; the result does not depend on the number of threads.
 Positions relaxed(const Rings& rings, const RingWeights& weights, const Positions& f);
-Positions relaxed(const Rings& rings, const Rows& rows, const Positions& f);
 
 /// The same into an array that holds values already: only vertices with a row are written. For many steps in turn.
 /// @param out  #V by 3, not f itself
 void relax(const Rings& rings, const RingWeights& weights, const Positions& f, Positions& out);
-void relax(const Rings& rings, const Rows& rows, const Positions& f, Positions& out);
 
 /// Makes one row at a time, for callers that have no Rings of a whole level. Holds scratch memory that grows with the
 /// largest ring seen: reuse it, one object per thread.
@@ -115,18 +102,11 @@ class RowRelaxation {
 public:
     explicit RowRelaxation(const RelaxationOptions& options);
 
-    /// Writes the weights of a star's entries.
-    /// @param weight  room for star.size
+    /// Writes the weights of a star's entries and flaps.
+    /// @param weight       room for star.size
+    /// @param flap_weight  the same; null if the operator does not use flaps
     /// @returns false if the vertex keeps its value; the weights are zero then
-    bool ring(const Star& star, const Positions& positions, double* weight);
-
-    /// How many entries the row of an operator with flaps has: the ring and its flaps; at most 2 star.size.
-    Index flap_columns(const Star& star);
-
-    /// Writes the columns and weights of a row of an operator with flaps.
-    /// @param column, weight  room for flap_columns(star)
-    /// @returns false if the vertex keeps its value; the weights are zero then
-    bool flaps(const Star& star, const Positions& positions, Index* column, double* weight);
+    bool row(const Star& star, const Positions& positions, double* weight, double* flap_weight);
 
 private:
     enum class Rule { keep, curve, disk };
@@ -135,18 +115,11 @@ private:
         Index a = 0, b = 0;  ///< entries of the two neighbours along the curve, for Rule::curve
     };
     Curve rule(const Star& star) const;
-    bool accept(bool found, const Star& star, Index columns, double* weight);
-    void flap_slots(const Star& star);
-    void search_flaps(const Star& star);
-    void hash_flaps(const Star& star);
+    bool accept(bool found, const Star& star, double* weight, double* flap_weight);
 
     RelaxationOptions options_;
     double largest_cotangent_;  ///< of smallest_angle
     StarGeometry geometry_;
-    // Of the last star with flaps:
-    std::vector<Index> slot_;   ///< entry of the row that each flap adds to, -1 if there is no flap
-    std::vector<Index> extra_;  ///< flap vertices that are not in the ring
-    Index extra_count_ = 0;
 };
 
 }  // namespace multires

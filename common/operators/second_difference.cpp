@@ -54,14 +54,14 @@ Divisor add_spokes(StarGeometry& star, const std::uint8_t* feature, double* weig
     return sum;
 }
 
-/// Adds the link edges; entry j is between triangle j and its flap.
+/// Adds the link edges; entry j is between triangle j and its flap. A flap that is none lies at neighbour j and makes a
+/// degenerate triangle.
 Divisor add_links(StarGeometry& star, const Flaps& flaps, double* weight) {
     const Index n = star.size;
     double *fx = star.scratch[0], *fy = star.scratch[1], *fz = star.scratch[2];
-    double *to_self = star.scratch[3], *to_next = star.scratch[4], *to_flap = star.scratch[5];
-    double* divisor = star.scratch[6];
+    double *to_self = star.scratch[3], *to_next = star.scratch[4], *divisor = star.scratch[5];
     for (Index j = 0; j < n; ++j) {
-        const Vec3 f = flaps.slot[j] < 0 ? flaps.center : (*flaps.positions)[flaps.vertex[j]];
+        const Vec3 f = (*flaps.positions)[flaps.vertex[j]];
         fx[j] = f.x() - flaps.center.x(), fy[j] = f.y() - flaps.center.y(), fz[j] = f.z() - flaps.center.z();
     }
     for (Index j = 0; j < n; ++j) {
@@ -74,17 +74,14 @@ Divisor add_links(StarGeometry& star, const Flaps& flaps, double* weight) {
         const double counts = a > flaps.degenerate * 2 * (e2 + g2 - d) ? star.solid[j] : 0;
         const double inverse = inverse_if(counts, a), cot_j = d * inverse, cot_k = (e2 - d) * inverse;
         const double own = star.cot1[j] + star.cot2[j], scale = own * inverse_if(counts, e2);
-        to_flap[j] = scale * (cot_j + cot_k);
+        flaps.weight[j] = -scale * (cot_j + cot_k);
         to_self[j] = scale * (star.cot2[j] + cot_k);
         to_next[j] = scale * (star.cot1[j] + cot_j);
         divisor[j] = scale * own;
     }
     Divisor sum;
     for (Index j = 0; j < n; ++j) {
-        if (flaps.slot[j] < 0) continue;
-        weight[flaps.slot[j]] -= to_flap[j];
-        weight[j] += to_self[j];
-        weight[j + 1 < n ? j + 1 : 0] += to_next[j];
+        weight[j] += to_self[j] + to_next[j > 0 ? j - 1 : n - 1];
         sum.value += divisor[j];
     }
     sum.scale = sum.value;
@@ -93,9 +90,9 @@ Divisor add_links(StarGeometry& star, const Flaps& flaps, double* weight) {
 
 }  // namespace
 
-bool second_difference(StarGeometry& star, const std::uint8_t* feature, const Flaps* flaps, Index columns,
-                       double* weight) {
-    std::fill_n(weight, columns, 0.0);
+bool second_difference(StarGeometry& star, const std::uint8_t* feature, const Flaps* flaps, double* weight) {
+    const Index n = star.size;
+    std::fill_n(weight, n, 0.0);
     Divisor divisor = add_spokes(star, feature, weight);
     if (flaps != nullptr) {
         const Divisor links = add_links(star, *flaps, weight);
@@ -103,7 +100,9 @@ bool second_difference(StarGeometry& star, const std::uint8_t* feature, const Fl
     }
     if (!(divisor.value > 1e-20 * divisor.scale)) return false;  // the differences do not depend on the vertex
     const double inverse = 1 / divisor.value;
-    for (Index k = 0; k < columns; ++k) weight[k] *= inverse;
+    for (Index k = 0; k < n; ++k) weight[k] *= inverse;
+    if (flaps != nullptr)
+        for (Index k = 0; k < n; ++k) flaps->weight[k] *= inverse;
     return true;
 }
 

@@ -13,7 +13,7 @@ struct Star {
     RingKind kind = RingKind::closed;
     Index size = 0;                         ///< number of neighbours
     const Index* neighbor = nullptr;        ///< size, in order around the vertex
-    const Index* flap = nullptr;            ///< size, -1 for none; or null: no flaps known
+    const Index* flap = nullptr;            ///< size, as Rings::flap; or null: no flaps known
     const std::uint8_t* feature = nullptr;  ///< size, 1 for feature spokes; or null: none is
 };
 
@@ -57,7 +57,7 @@ public:
     double* cot1 = nullptr;   ///< at neighbour j,
     double* cot2 = nullptr;   ///< at neighbour j+1
     // #size+1, for the operators:
-    std::array<double*, 7> scratch{};
+    std::array<double*, 6> scratch{};
     std::vector<Index> next, previous;
 
 private:

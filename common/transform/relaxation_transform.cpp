@@ -4,120 +4,58 @@
 #include "transform/frame.h"
 
 #include <algorithm>
-#include <array>
 
 namespace multires {
 namespace {
 
-/// Rows of weights over the columns of their rings or, for operators with flaps, over their own.
+/// The weights of some rings, as they are stored.
 struct Stencil {
     const Rings* rings = nullptr;
-    RingWeights ring;
-    Rows rows;
-    bool own = false;
-    Array<float> single;  ///< Storage::single: the weights, instead of those of `ring` or `rows`
+    RingWeights weights;
+    Array<float> ring_single, flap_single;  ///< Storage::single: the weights, instead of those of `weights`
 
-    const Array<Index>& offset() const { return own ? rows.offset : rings->offset; }
-    const Array<Index>& column() const { return own ? rows.column : rings->neighbor; }
-    const Array<double>& weight() const { return own ? rows.weight : ring.weight; }
-    const std::vector<Index>& kept() const { return own ? rows.kept : ring.kept; }
-};
-
-Stencil make_stencil(const Rings& rings, const Positions& positions, const RelaxationTransformOptions& options) {
-    Stencil s;
-    s.rings = &rings;
-    s.own = uses_flaps(options.relaxation.op);
-    if (s.own)
-        s.rows = relaxation(rings, positions, options.relaxation);
-    else
-        s.ring = ring_weights(rings, positions, options.relaxation);
-    if (options.weights == Storage::single) {
-        Array<double>& weight = s.own ? s.rows.weight : s.ring.weight;
-        s.single.assign(weight.begin(), weight.end());
-        weight = Array<double>();
-    }
-    return s;
-}
-
-/// Weighted sums of rows for a width known at compile time (0: at run time).
-template <int Width>
-struct Sums {
-    const Stencil& s;
-    const Index* offset = s.offset().data();
-    const Index* column = s.column().data();
-    const double* weight = s.weight().data();
-    const float* single = s.single.data();
-
-    void row(Index r, const Field& f, double* out) const {
-        if (s.single.empty())
-            add(r, f, out);
-        else
-            add_single(r, f, out);
+    Stencil(const Rings& r, const Positions& positions, const RelaxationTransformOptions& options)
+        : rings(&r), weights(ring_weights(r, positions, options.relaxation)) {
+        if (options.weights != Storage::single) return;
+        narrow(weights.weight, ring_single);
+        narrow(weights.flap_weight, flap_single);
     }
 
-private:
-    int width(const Field& f) const { return Width > 0 ? Width : f.width; }
-    const double* at(const Field& f, Index k) const {
-        return f.values.data() + static_cast<std::size_t>(column[k]) * width(f);
+    RowWeights rows() const {
+        if (ring_single.empty()) return row_weights(*rings, weights);
+        return {rings, nullptr, nullptr, ring_single.data(), flap_single.empty() ? nullptr : flap_single.data()};
     }
 
-    void add(Index r, const Field& f, double* out) const {
-        const int w = width(f);
-        std::array<double, std::max(Width, 1)> local{};
-        double* const sum = Width > 0 ? local.data() : out;
-        std::fill_n(sum, w, 0.0);
-        for (Index k = offset[r]; k < offset[r + 1]; ++k) {
-            const double* v = at(f, k);
-            for (int c = 0; c < w; ++c) sum[c] += weight[k] * v[c];
-        }
-        if (Width > 0) std::copy_n(local.data(), w, out);
-    }
+    const std::vector<Index>& kept() const { return weights.kept; }
 
-    /// Rounded weights do not sum to 1; used as differences to the first value, they need not.
-    void add_single(Index r, const Field& f, double* out) const {
-        const int w = width(f);
-        if (offset[r] == offset[r + 1]) {
-            std::fill_n(out, w, 0.0);
-            return;
-        }
-        const double* first = at(f, offset[r]);
-        std::copy_n(first, w, out);
-        for (Index k = offset[r] + 1; k < offset[r + 1]; ++k) {
-            const double* v = at(f, k);
-            for (int c = 0; c < w; ++c) out[c] += static_cast<double>(single[k]) * (v[c] - first[c]);
-        }
+    static void narrow(Array<double>& wide, Array<float>& single) {
+        single.assign(wide.begin(), wide.end());
+        wide = Array<double>();
     }
 };
 
-/// R f of all rows into `out`; rows that keep their value take it from row keep(r) of f.
-template <int Width, class Keep>
-void relax_rows(const Stencil& s, const Field& f, Field& out, const Keep& keep) {
-    const Sums<Width> sums{s};
-    const Index rows = s.rings->rows();
-    parallel_for(rows, [&](Index r) { sums.row(r, f, out.row(r)); });
-    for (const Index r : s.kept()) std::copy_n(f.row(keep(r)), f.width, out.row(r));
-}
-
-template <class Keep>
-void relax_rows(const Stencil& s, const Field& f, Field& out, const Keep& keep) {
-    switch (f.width) {
-    case 1:
-        return relax_rows<1>(s, f, out, keep);
-    case 3:
-        return relax_rows<3>(s, f, out, keep);
-    case 4:
-        return relax_rows<4>(s, f, out, keep);
-    default:
-        return relax_rows<0>(s, f, out, keep);
-    }
+/// Calls take(row, R f) for the rows begin..end-1, in parallel; those that keep their value take it from row keep(r) of
+/// f. What take() reads of a row's neighbours is still near.
+template <class Keep, class Take>
+void for_relaxed_rows(const Stencil& s, Index begin, Index end, const Field& f, const Keep& keep, const Take& take) {
+    const RowWeights rows = s.rows();
+    const std::vector<Index>& kept = s.kept();
+    parallel_chunks(end - begin, 256, [&](Index from, Index to) {
+        Field relaxed = Field::unset(to - from, f.width);
+        from += begin, to += begin;
+        row_sums(rows, from, to, f.values.data(), f.width, relaxed.row(0));
+        for (auto k = std::lower_bound(kept.begin(), kept.end(), from); k != kept.end() && *k < to; ++k)
+            std::copy_n(f.row(keep(*k)), f.width, relaxed.row(*k - from));
+        for (Index r = from; r < to; ++r) take(r, relaxed.row(r - from));
+    });
 }
 
 class RelaxationTransform final : public Transform {
 public:
     RelaxationTransform(const Hierarchy& h, const RelaxationTransformOptions& options) : h_(h), options_(options) {
         for (const Level& level : h.levels) {
-            odd_.push_back(make_stencil(level.odd, h.positions, options));
-            even_.push_back(make_stencil(level.even, h.positions, options));
+            odd_.emplace_back(level.odd, h.positions, options);
+            even_.emplace_back(level.even, h.positions, options);
         }
     }
 
@@ -183,13 +121,13 @@ private:
         d.even = Field::unset(level.even.rows(), width);
         parallel_for(d.odd.rows(), [&](Index r) { std::copy_n(f.row(level.coarse + r), width, d.odd.row(r)); });
         parallel_for(d.even.rows(), [&](Index r) { std::copy_n(f.row(even_vertex(r)), width, d.even.row(r)); });
-        Field relaxed = Field::unset(level.even.rows(), width);
         if (options_.presmooth > 0) {
-            relax_rows(even_[k], f, relaxed, even_vertex);
-            parallel_for(level.even.rows(), [&](Index r) {
-                double* c = f.row(even_vertex(r));
-                for (int i = 0; i < width; ++i) c[i] += options_.presmooth * (relaxed.row(r)[i] - c[i]);
+            Field smooth = Field::unset(level.even.rows(), width);
+            for_relaxed_rows(even_[k], 0, level.even.rows(), f, even_vertex, [&](Index r, const double* relaxed) {
+                const double* const c = f.row(even_vertex(r));
+                for (int i = 0; i < width; ++i) smooth.row(r)[i] = c[i] + options_.presmooth * (relaxed[i] - c[i]);
             });
+            parallel_for(level.even.rows(), [&](Index r) { std::copy_n(smooth.row(r), width, f.row(even_vertex(r))); });
         }
         const bool frames = framed(f);
         if (frames) d.odd_framed.resize(level.odd.rows()), d.even_framed.resize(level.even.rows());
@@ -197,11 +135,10 @@ private:
             store(d.odd.row(r), predicted, frame, width, d.odd_framed, r);
             if (options_.scheme == Scheme::guskov) std::copy_n(predicted, width, f.row(level.coarse + r));
         });
-        relax_rows(even_[k], f, relaxed, even_vertex);
-        parallel_for(level.even.rows(), [&](Index r) {
+        for_relaxed_rows(even_[k], 0, level.even.rows(), f, even_vertex, [&](Index r, const double* relaxed) {
             Frame frame;
             if (frames) frame = frame_of(level.even, r, f);
-            store(d.even.row(r), relaxed.row(r), frames ? &frame : nullptr, width, d.even_framed, r);
+            store(d.even.row(r), relaxed, frames ? &frame : nullptr, width, d.even_framed, r);
         });
         f.values.resize(static_cast<std::size_t>(level.coarse) * width);
     }
@@ -215,72 +152,38 @@ private:
         // Guskov predicts even vertices from predicted odd ones; the odd ones' own values wait until that is done.
         Field odd = Field::unset(guskov ? level.odd.rows() : 0, width);
         predict_odd(k, f, [&](Index r, const double* predicted, const Frame* frame) {
-            double* at = f.row(level.coarse + r);
-            double value[max_width];
-            std::vector<double> large(width > max_width ? width : 0);
-            double* to = width > max_width ? large.data() : value;
-            restore(d.odd.row(r), predicted, frame && is_framed(d.odd_framed, r) ? frame : nullptr, width, gain, to);
-            std::copy_n(guskov ? predicted : to, width, at);
-            if (guskov) std::copy_n(to, width, odd.row(r));
+            double* const at = f.row(level.coarse + r);
+            restore(d.odd.row(r), predicted, frame && is_framed(d.odd_framed, r) ? frame : nullptr, width, gain,
+                    guskov ? odd.row(r) : at);
+            if (guskov) std::copy_n(predicted, width, at);
         });
-        Field relaxed = Field::unset(level.even.rows(), width);
-        relax_rows(even_[k], f, relaxed, [&](Index r) { return level.even.vertex(r); });
+        Field even = Field::unset(level.even.rows(), width);  // rows need the old values of all
         const bool frames = framed(f);
-        if (frames) {  // in place: frames need the old values of all
-            parallel_for(level.even.rows(), [&](Index r) {
-                const Frame frame = frame_of(level.even, r, f);
-                double* to = relaxed.row(r);
-                restore(d.even.row(r), to, is_framed(d.even_framed, r) ? &frame : nullptr, width, gain, to);
-            });
-        }
-        parallel_for(level.even.rows(), [&](Index r) {
-            double* to = f.row(level.even.vertex(r));
-            if (frames)
-                std::copy_n(relaxed.row(r), width, to);
-            else
-                restore(d.even.row(r), relaxed.row(r), nullptr, width, gain, to);
+        const auto vertex = [&](Index r) { return level.even.vertex(r); };
+        for_relaxed_rows(even_[k], 0, level.even.rows(), f, vertex, [&](Index r, const double* relaxed) {
+            Frame frame;
+            const bool turned = frames && is_framed(d.even_framed, r);
+            if (turned) frame = frame_of(level.even, r, f);
+            restore(d.even.row(r), relaxed, turned ? &frame : nullptr, width, gain, even.row(r));
         });
-        if (guskov) std::copy(odd.values.begin(), odd.values.end(), f.row(level.coarse));
+        parallel_for(level.even.rows(), [&](Index r) { std::copy_n(even.row(r), width, f.row(vertex(r))); });
+        parallel_for(odd.rows(), [&](Index r) { std::copy_n(odd.row(r), width, f.row(level.coarse + r)); });
     }
 
     /// Predicts every odd vertex from g and hands (row, prediction, frame or null) to `take`, which may write g at that
     /// vertex. One set of odd vertices after the other.
     template <class Take>
     void predict_odd(std::size_t k, const Field& g, const Take& take) const {
-        switch (g.width) {
-        case 1:
-            return predict_odd<1>(k, g, take);
-        case 3:
-            return predict_odd<3>(k, g, take);
-        case 4:
-            return predict_odd<4>(k, g, take);
-        default:
-            return predict_odd<0>(k, g, take);
-        }
-    }
-
-    template <int Width, class Take>
-    void predict_odd(std::size_t k, const Field& g, const Take& take) const {
         const Level& level = h_.levels[k];
-        const Sums<Width> sums{odd_[k]};
         const bool frames = framed(g);
-        const std::vector<Index>& kept = odd_[k].kept();
-        const auto one = [&](Index r) {
-            double value[max_width];
-            std::vector<double> large(g.width > max_width ? g.width : 0);
-            double* predicted = g.width > max_width ? large.data() : value;
-            if (!kept.empty() && std::binary_search(kept.begin(), kept.end(), r))
-                std::copy_n(g.row(h_.parent[level.coarse + r]), g.width, predicted);
-            else
-                sums.row(r, g, predicted);
-            Frame frame;
-            if (frames) frame = frame_of(level.odd, r, g);
-            take(r, predicted, frames ? &frame : nullptr);
-        };
-        for (std::size_t s = 0; s + 1 < level.sets.size(); ++s) {
-            const Index first = level.sets[s];
-            parallel_for(level.sets[s + 1] - first, [&](Index r) { one(first + r); });
-        }
+        const auto parent = [&](Index r) { return h_.parent[level.coarse + r]; };
+        for (std::size_t s = 0; s + 1 < level.sets.size(); ++s)
+            for_relaxed_rows(odd_[k], level.sets[s], level.sets[s + 1], g, parent,
+                             [&](Index r, const double* predicted) {
+                                 Frame frame;
+                                 if (frames) frame = frame_of(level.odd, r, g);
+                                 take(r, predicted, frames ? &frame : nullptr);
+                             });
     }
 
     static Frame frame_of(const Rings& rings, Index r, const Field& g) {
@@ -315,7 +218,6 @@ private:
         for (; c < width; ++c) value[c] = predicted[c] + gain * detail[c];
     }
 
-    static constexpr int max_width = 16;
     static constexpr double detail_limit = 0.5;  ///< in sizes of the frame
 
     const Hierarchy& h_;

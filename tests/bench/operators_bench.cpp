@@ -51,11 +51,7 @@ void Weights(benchmark::State& state, Operator op) {
     RelaxationOptions options;
     options.op = op;
     for (auto _ : state) {
-        if (uses_flaps(op)) {
-            benchmark::DoNotOptimize(relaxation(in.rings, in.mesh.positions, options).weight.data());
-        } else {
-            benchmark::DoNotOptimize(ring_weights(in.rings, in.mesh.positions, options).weight.data());
-        }
+        benchmark::DoNotOptimize(ring_weights(in.rings, in.mesh.positions, options).weight.data());
     }
     set_thread_count(threads);
     per_row(state);

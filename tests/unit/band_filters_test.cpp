@@ -234,7 +234,7 @@ TEST(Unsharp, IsLinearInItsStrength) {
         Rings rings = rings_with_flaps(layer.mesh);
         RelaxationOptions relaxation_options;
         relaxation_options.op = op;
-        const Rows rows = relaxation(rings, layer.mesh.positions, relaxation_options);
+        const RingWeights rows = ring_weights(rings, layer.mesh.positions, relaxation_options);
         Positions smooth = layer.mesh.positions;
         for (int i = 0; i < 7; ++i) smooth = relaxed(rings, rows, smooth);
         EXPECT_LE(largest_distance(at(0), smooth), 1e-13);

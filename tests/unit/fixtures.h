@@ -77,8 +77,8 @@ Row row_of(const Rings& rings, Index r, const Name& name) {
     }
     if (!rings.flap.empty())
         for (Index j = 0; j < (closed ? d : d - 1); ++j) {
-            const Index f = rings.flap[o + j];
-            row.flap[std::minmax(row.ring[j], row.ring[j + 1 < d ? j + 1 : 0])] = f < 0 ? -1 : name(f);
+            row.flap[std::minmax(row.ring[j], row.ring[j + 1 < d ? j + 1 : 0])] =
+                rings.has_flap(o + j) ? name(rings.flap[o + j]) : -1;
         }
     row.ring = canonical(std::move(row.ring), closed);
     return row;

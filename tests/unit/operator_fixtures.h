@@ -4,6 +4,8 @@
 #include "operators/relaxation.h"
 #include "random.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -49,6 +51,40 @@ inline Positions planar_star(Index n, std::uint64_t seed) {
 
 inline bool is_kept(const std::vector<Index>& kept, Index row) {
     return std::binary_search(kept.begin(), kept.end(), row);
+}
+
+/// Rows as a sparse matrix has them: every column once, the ring first, then the flaps that are not in it.
+struct Rows {
+    std::vector<Index> offset{0}, column;
+    std::vector<double> weight;
+    std::vector<Index> kept;
+};
+
+inline Rows sparse_rows(const Rings& rings, const Positions& positions, const RelaxationOptions& options) {
+    const RingWeights weights = ring_weights(rings, positions, options);
+    Rows rows;
+    rows.kept = weights.kept;
+    for (Index r = 0; r < rings.rows(); ++r) {
+        for (Index k = rings.offset[r]; k < rings.offset[r + 1]; ++k) {
+            rows.column.push_back(rings.neighbor[k]);
+            rows.weight.push_back(weights.weight[k]);
+        }
+        for (Index k = rings.offset[r]; k < rings.offset[r + 1] && !weights.flap_weight.empty(); ++k) {
+            if (!rings.has_flap(k)) {
+                EXPECT_EQ(weights.flap_weight[k], 0);
+                continue;
+            }
+            const auto at = std::find(rows.column.begin() + rows.offset[r], rows.column.end(), rings.flap[k]);
+            if (at == rows.column.end()) {
+                rows.column.push_back(rings.flap[k]);
+                rows.weight.push_back(weights.flap_weight[k]);
+            } else {
+                rows.weight[at - rows.column.begin()] += weights.flap_weight[k];
+            }
+        }
+        rows.offset.push_back(static_cast<Index>(rows.column.size()));
+    }
+    return rows;
 }
 
 inline double sum_of_row(const Rows& rows, Index r) {
