@@ -1,6 +1,7 @@
 #include "operators/kernels.h"
 
 #include <algorithm>
+#include <cmath>
 
 // The spoke to neighbour j is opposite neighbour j+1 in triangle j (cot2[j]) and opposite neighbour j-1 in triangle j-1
 // (cot1[j-1]). The two cotangents that a triangle adds to a row sum to (opposite side)^2 / (2 area) > 0, so the sum of
@@ -10,12 +11,13 @@ namespace multires::kernels {
 
 namespace {
 
-/// Divides by the sum; false if there is nothing to divide.
+/// Divides by the sum; false if there is nothing to divide, or if the cotangents were beyond all bounds: flips across
+/// spokes so short that their squares underflow leave triangles without an area.
 bool normalise(double* weight, Index size) {
     double sum = 0;
     for (Index j = 0; j < size; ++j) sum += weight[j];
-    if (!(sum > 0)) return false;
     const double inverse = 1 / sum;
+    if (!(inverse > 0) || std::isinf(inverse)) return false;
     for (Index j = 0; j < size; ++j) weight[j] *= inverse;
     return true;
 }

@@ -135,7 +135,9 @@ bool RowRelaxation::accept(bool found, const Star& star, double* weight, double*
     std::fill_n(weight, star.size, 0.0);
     if (flap_weight != nullptr) std::fill_n(flap_weight, star.size, 0.0);
     if (has_feature(star)) return false;
-    if (!kernels::cotangent_delaunay(geometry_, weight)) inverse_lengths(geometry_, weight);
+    // Once only: flips change the geometry.
+    if (options_.op == Operator::cotangent_delaunay || !kernels::cotangent_delaunay(geometry_, weight))
+        inverse_lengths(geometry_, weight);
     return true;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace multires {
 
@@ -122,6 +123,19 @@ TEST(Cotangent, NeighbourOnTheVertexIsLeftOut) {
     for (const Operator op : {Operator::cotangent, Operator::cotangent_clamped, Operator::cotangent_delaunay}) {
         EXPECT_EQ(star.weights(op), (Array<double>{0, 0.25, 0.5, 0.25}));
     }
+}
+
+TEST(Cotangent, NeighbourAtTheShortestDistanceThereIsGivesAllItsWeights) {
+    // Found by the fuzzer. The square of the second spoke is 0, but its dot products are not.
+    const double t = std::numeric_limits<double>::denorm_min();
+    const ClosedStar star({{t, t, t},
+                           {-6, -3.75, 2.25},
+                           {0, t, t},
+                           {-3.75, -4.25, -2.125},
+                           {t, t, -13.25},
+                           {3.75, 2.25, -6},
+                           {6, 3.75, 2.25}});
+    EXPECT_EQ(star.weights(Operator::cotangent_delaunay), (Array<double>{0, 1, 0, 0, 0, 0}));
 }
 
 TEST(Cotangent, DegenerateIsRelativeToTheEdges) {
