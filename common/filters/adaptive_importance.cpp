@@ -4,6 +4,7 @@
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
+#include "mesh/validation.h"
 #include "parallel/parallel.h"
 
 #include <algorithm>
@@ -140,7 +141,7 @@ std::vector<double> attribute_details(const Layer& layer, const Hierarchy& h, Op
     f.width = a.width;
     f.values.assign(a.values.begin(), a.values.end());
     for (const double value : f.values)
-        if (!std::isfinite(value)) throw InputError(std::string(message) + " that is a number everywhere");
+        if (!is_usable(value)) throw InputError(std::string(message) + " that is a number up to 1e70 everywhere");
     return field_details(h, to_places(h, f), op);
 }
 

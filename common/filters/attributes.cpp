@@ -139,9 +139,9 @@ void keep_seam_ends(Relaxation& r, const CutMesh& cut) {
 void check_wedges(const std::vector<Wedge>& wedges) {
     if (wedges.empty()) throw InputError("wedge_texcoord: the mesh has no wedge texture coordinates");
     for (std::size_t i = 0; i < wedges.size(); ++i)
-        if (!(std::isfinite(wedges[i].u) && std::isfinite(wedges[i].v)))
+        if (!(is_usable(wedges[i].u) && is_usable(wedges[i].v)))
             throw InputError("wedge_texcoord: the texture coordinate of corner " + std::to_string(i % 3) + " of face " +
-                             std::to_string(i / 3) + " is not a finite number");
+                             std::to_string(i / 3) + " is not a finite number, or beyond 1e70");
 }
 
 void report_wedges(const CutMesh& cut, const Field& after, Report& report) {

@@ -1,6 +1,7 @@
 #include "filters/channels.h"
 
 #include "measure/reduce.h"
+#include "mesh/validation.h"
 
 #include <algorithm>
 #include <cctype>
@@ -79,9 +80,9 @@ Channels channels_of(const Layer& layer, std::size_t index, bool linear_light) {
     c.field.has_positions = false;
     c.field.values.assign(a.values.begin(), a.values.end());
     for (std::size_t i = 0; i < a.values.size(); ++i)
-        if (!std::isfinite(a.values[i]))
+        if (!is_usable(a.values[i]))
             throw InputError(c.label + ": the value of vertex " + std::to_string(i / a.width) +
-                             " is not a finite number");
+                             " is not a finite number, or beyond 1e70");
     if (c.linear_light)
         parallel_for(c.field.rows(), [&](Index r) {
             for (int k = 0; k < 3; ++k) c.field.row(r)[k] = decode_light(c.field.row(r)[k]);

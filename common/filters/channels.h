@@ -33,7 +33,7 @@ struct Channels {
 /// The vertex attributes chosen.
 /// @param linear_light  decode colours
 /// @throws InputError  naming the parameter if nothing is chosen or the layer lacks what is; naming the attribute and
-///                     the vertex if a value is not finite
+///                     the vertex if a value is not finite or too large to be squared
 std::vector<Channels> vertex_channels(const Layer& layer, const AttributeChoice& choice, bool linear_light);
 
 /// Between the values of an image file (sRGB, IEC 61966-2-1) and amounts of light, both in 0..255. Values outside are

@@ -4,6 +4,8 @@
 #include "mesh/mesh.h"
 #include "mesh/rings.h"
 
+#include <cmath>
+
 namespace multires {
 
 /// What is unusual about an input; all of it is handled, and none of it is changed.
@@ -37,5 +39,8 @@ InputCounts count_input(const Mesh& mesh);
 ///                     the user
 /// Cost: linear.
 void require_usable(const Mesh& mesh);
+
+/// True for values of attributes that filters can compute with: finite, and what can be squared safely (to 1e70).
+inline bool is_usable(double value) { return std::abs(value) <= 1e70; }
 
 }  // namespace multires
