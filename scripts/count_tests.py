@@ -3,7 +3,7 @@
 
     scripts/count_tests.py BUILD...
 
-Each build folder holds ctest.xml. A CTest test named pytest_<name> stands for the cases in pytest_<name>.xml; if
+Each build folder holds ctest.xml; tests have the same name in several. A CTest test named pytest_<name> stands for the cases in pytest_<name>.xml; if
 it failed without a report of a failing case (it crashed, say), it counts as a failure itself. A skipped test counts
 as a failure if CI=true, for nothing may be missing there; elsewhere it counts as neither, and is listed.
 """
@@ -37,7 +37,8 @@ def cases(build):
 
 
 def main():
-    found = [case for build in sys.argv[1:] for case in cases(pathlib.Path(build))]
+    builds = [pathlib.Path(build) for build in sys.argv[1:]]
+    found = [(f"{build.name}: {name}", result) for build in builds for name, result in cases(build)]
     for wanted in ("skipped", "failed"):
         for name, result in found:
             if result == wanted:

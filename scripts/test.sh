@@ -1,10 +1,10 @@
 #!/bin/bash
-# Builds everything and runs every test: unit tests, plugins in their hosts, format, lint. Ends with one line, "N passed,
-# N failed". May be run at any time; what is unchanged is not built or linted again. The presets sanitize, threads and
-# fuzz are run by hand.
+# Builds everything and runs every test: unit tests, plugins in their hosts, unit tests under sanitizers, the fuzzers for
+# 20 seconds each, format, lint. Ends with one line, "N passed, N failed". May be run at any time; what is unchanged is
+# not built or linted again.
 set -uo pipefail
 cd "$(dirname "$0")/.."
-presets=(pymeshlab-2025.07 debian-2020.09 headers-2022.02)
+presets=(pymeshlab-2025.07 debian-2020.09 headers-2022.02 sanitize threads fuzz)
 
 stop() {
     echo "$1" >&2
