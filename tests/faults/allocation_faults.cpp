@@ -6,6 +6,10 @@
 #include <limits>
 #include <new>
 
+#include <sys/mman.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
 // Nothing here may allocate.
 
 namespace multires::faults {
@@ -13,21 +17,22 @@ namespace {
 
 constexpr long never = std::numeric_limits<long>::max();
 
-std::atomic<bool> armed{false};
+std::atomic<bool> armed{false}, mapped_only{false};
 std::atomic<long> allocations{0};
 std::atomic<long> failing{never};
 std::atomic<bool> lasting{false};
 
 }  // namespace
 
-void fail_at(long index, Shortage shortage) {
+void fail_at(long index, Shortage shortage, Memory memory) {
+    mapped_only = memory == Memory::mapped;
     allocations = 0;
     failing = index;
     lasting = shortage == Shortage::lasting;
     armed = true;
 }
 
-void count() { fail_at(never); }
+void count(Memory memory) { fail_at(never, Shortage::once, memory); }
 
 long stop() {
     armed = false;
@@ -35,13 +40,22 @@ long stop() {
 }
 
 /// Counts an allocation; true if it is to fail.
-bool fails() noexcept {
-    if (!armed.load(std::memory_order_relaxed)) return false;
+bool fails(bool mapped = false) noexcept {
+    if (!armed.load(std::memory_order_relaxed) || (mapped_only && !mapped)) return false;
     const long index = allocations.fetch_add(1);
     return lasting ? index >= failing : index == failing;
 }
 
 }  // namespace multires::faults
+
+// glibc's own calls, malloc's among them, do not come here.
+extern "C" __attribute__((visibility("default"))) void* mmap(void* address, std::size_t size, int protection, int flags,
+                                                             int file, off_t offset) noexcept {
+    if (!multires::faults::fails(true))
+        return reinterpret_cast<void*>(syscall(SYS_mmap, address, size, protection, flags, file, offset));
+    errno = ENOMEM;
+    return MAP_FAILED;
+}
 
 #ifdef MULTIRES_SANITIZED
 

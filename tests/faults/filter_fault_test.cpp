@@ -79,6 +79,17 @@ protected:
 
 }  // namespace
 
+TEST(ArrayFaults, NoMemoryForALargeArrayIsAnErrorAndTheNextOneWorks) {
+    constexpr std::size_t large = 5 << 20;
+    Array<char> kept(large, 'a'), after;
+    faults::fail_at(0, Shortage::once, faults::Memory::mapped);
+    EXPECT_THROW(kept.resize(2 * large), std::bad_alloc);
+    EXPECT_NO_THROW(after.resize(2 * large));
+    EXPECT_EQ(faults::stop(), 2);
+    EXPECT_EQ(kept, Array<char>(large, 'a'));
+    std::fill(after.begin(), after.end(), 'b');
+}
+
 TEST_P(FilterFaults, NoMemoryAtAnyAllocationIsAnErrorAndTheNextCallWorks) {
     const fixtures::Threads one(1);
     const auto calls = variants(filter(), layer);

@@ -13,16 +13,17 @@
 namespace multires::host_tests {
 namespace {
 
+using faults::Memory;
 using faults::Shortage;
 
 /// One call on a document of its own.
 struct Case {
-    explicit Case(const Action& a, bool bare = false) : action(a) {
-        fill(document, bare);
+    explicit Case(const Action& a, Content content = Content::everything) : action(a) {
+        fill(document, content);
         list = parameters_of(action, document);
         if (list.hasParameter("base_vertices")) list.setValue("base_vertices", IntValue(8));
         if (list.hasParameter("level")) list.setValue("level", IntValue(1));
-        if (!bare) call("compute_multires_pyramid");  // of other options
+        if (content != Content::bare) call("compute_multires_pyramid");  // of other options
         before = snapshot(document);
     }
 
@@ -45,17 +46,22 @@ struct Case {
 
 class DocumentFaults : public testing::TestWithParam<Action> {
 protected:
-    void starve(Shortage shortage, bool bare = false) {
-        auto c = std::make_unique<Case>(GetParam(), bare);
+    /// Lets every allocation fail in turn; for large documents, some of the large ones.
+    void starve(Shortage shortage, Content content = Content::everything) {
+        const bool large = content == Content::large;
+        const Memory memory = large ? Memory::mapped : Memory::all;
+        auto c = std::make_unique<Case>(GetParam(), content);
+        faults::count(memory);
         c->run();
+        const long made_at_all = faults::stop(), step = large ? made_at_all / 6 + 1 : 1;
         const Snapshot done = snapshot(c->document);
         EXPECT_TRUE(done != c->before) << "the filter changes nothing at all, not even the kept pyramid";
-        c = std::make_unique<Case>(GetParam(), bare);
+        c = std::make_unique<Case>(GetParam(), content);
         int refusals = 0, successes = 0;
-        for (long i = 0;; ++i) {
+        for (long i = 0;; i += step) {
             bool refused = true;
             std::string message = "std::bad_alloc";
-            faults::fail_at(i, shortage);
+            faults::fail_at(i, shortage, memory);
             try {
                 c->run();
                 refused = false;
@@ -76,9 +82,9 @@ protected:
             ASSERT_TRUE(snapshot(c->document).equals(done)) << "allocation " << i;
             if (made <= i) break;
             ++successes;
-            c = std::make_unique<Case>(GetParam(), bare);
+            c = std::make_unique<Case>(GetParam(), content);
         }
-        EXPECT_GT(refusals, 50);
+        EXPECT_GT(refusals, large ? 3 : 50);
         EXPECT_LT(successes, refusals);
     }
 };
@@ -93,15 +99,17 @@ TEST_P(DocumentFaults, NoMemoryAtAnyAllocationLeavesTheDocument) { starve(Shorta
 
 TEST_P(DocumentFaults, NoMemoryLeavesADocumentWithoutData) {
     try {
-        Case(GetParam(), true).run();
+        Case(GetParam(), Content::bare).run();
     } catch (const MLException& e) {
         EXPECT_TRUE(std::string(e.what()).find("has no") != std::string::npos) << e.what();
         return;  // a filter of attributes
     }
-    starve(Shortage::once, true);
+    starve(Shortage::once, Content::bare);
 }
 
 TEST_P(DocumentFaults, NoMemoryFromAnyAllocationOnLeavesTheDocument) { starve(Shortage::lasting); }
+
+TEST_P(DocumentFaults, NoMemoryForLargeArraysLeavesTheDocument) { starve(Shortage::once, Content::large); }
 
 TEST_P(DocumentFaults, StoppingAtAnyReportLeavesTheDocument) {
     reports = 0, stop_at = -1;

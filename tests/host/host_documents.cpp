@@ -88,13 +88,13 @@ void enrich(MeshModel& model) {
     }
 }
 
-void fill(MeshDocument& document, bool bare) {
+void fill(MeshDocument& document, Content content) {
     add(document, shapes::tetrahedron(), "another");
-    Mesh mesh = shapes::irregular_sphere(42, {0.3, 0.3, 5});
+    Mesh mesh = content == Content::large ? shapes::scan(200000) : shapes::irregular_sphere(42, {0.3, 0.3, 5});
     mesh.faces.resize(mesh.faces.size() - 3);
     mesh.positions.push_back({0, 3, 0});
     MeshModel& model = add(document, mesh, "mesh");
-    if (!bare) enrich(model);
+    if (content != Content::bare) enrich(model);
     CMeshO& m = model.cm;
     vcg::tri::Allocator<CMeshO>::DeleteFace(m, m.face[7]);
     vcg::tri::Allocator<CMeshO>::DeleteVertex(m, m.vert.back());

@@ -33,8 +33,13 @@ MeshModel& add(MeshDocument& document, const Mesh& mesh, const char* label = "me
 /// Switches on all data that filters read or a new layer takes over, with values that differ from element to element.
 void enrich(MeshModel& model);
 
-/// Two layers, the second current: a small surface with a boundary, selections, deleted elements, and every data (if
-/// bare, no optional data at all).
-void fill(MeshDocument& document, bool bare = false);
+enum class Content {
+    everything,  ///< a small surface with every data
+    bare,        ///< the same with no optional data at all
+    large        ///< with every data, and so many vertices that arrays of them are made of whole pages
+};
+
+/// Two layers, the second current: a surface with a boundary, selections and deleted elements.
+void fill(MeshDocument& document, Content content = Content::everything);
 
 }  // namespace multires::host_tests
