@@ -20,9 +20,7 @@ using faults::Shortage;
 struct Case {
     explicit Case(const Action& a, Content content = Content::everything) : action(a) {
         fill(document, content);
-        list = parameters_of(action, document);
-        if (list.hasParameter("base_vertices")) list.setValue("base_vertices", IntValue(8));
-        if (list.hasParameter("level")) list.setValue("level", IntValue(1));
+        list = small_parameters_of(action, document);
         if (content != Content::bare) call("compute_multires_pyramid");  // of other options
         before = snapshot(document);
     }

@@ -13,11 +13,18 @@
 namespace multires::host_tests {
 namespace {
 
+/// Of the plugins that are loaded. Not freed when the process ends: plugins stay to the end, as in MeshLab.
+std::vector<QPluginLoader*>& loaders() {
+    static auto* all = new std::vector<QPluginLoader*>;
+    return *all;
+}
+
 std::vector<Action> load() {
     std::vector<Action> all;
     const QDir folder(MULTIRES_PLUGINS);
     for (const QString& file : folder.entryList({"*.so"}, QDir::Files, QDir::Name)) {
-        auto* loader = new QPluginLoader(folder.filePath(file));  // plugins stay to the end, as in MeshLab
+        auto* loader = new QPluginLoader(folder.filePath(file));
+        loaders().push_back(loader);
         auto* plugin = qobject_cast<FilterPlugin*>(loader->instance());
         if (!plugin) throw std::runtime_error(loader->errorString().toStdString());
         for (QAction* action : plugin->actions())
@@ -35,6 +42,14 @@ const std::vector<Action>& actions() {
     return all;
 }
 
+void unload() {
+    for (QPluginLoader* loader : loaders()) {
+        if (!loader->unload()) throw std::runtime_error(loader->errorString().toStdString());
+        delete loader;
+    }
+    loaders().clear();
+}
+
 const Action& action_named(const std::string& name) {
     for (const Action& a : actions())
         if (a.name == name) return a;
@@ -43,6 +58,13 @@ const Action& action_named(const std::string& name) {
 
 RichParameterList parameters_of(const Action& action, const MeshDocument& document) {
     return action.plugin->initParameterList(action.action, document);
+}
+
+RichParameterList small_parameters_of(const Action& action, const MeshDocument& document) {
+    RichParameterList list = parameters_of(action, document);
+    if (list.hasParameter("base_vertices")) list.setValue("base_vertices", IntValue(8));
+    if (list.hasParameter("level")) list.setValue("level", IntValue(1));
+    return list;
 }
 
 MeshModel& add(MeshDocument& document, const Mesh& mesh, const char* label) {

@@ -22,10 +22,16 @@ struct Action {
 /// All filters of all plugins in <build>/plugins.
 const std::vector<Action>& actions();
 
+/// Ends them all; actions are of no more use.
+void unload();
+
 /// @throws std::logic_error  if there is none
 const Action& action_named(const std::string& name);
 
 RichParameterList parameters_of(const Action& action, const MeshDocument& document);
+
+/// The same, but pyramids of small meshes have several levels.
+RichParameterList small_parameters_of(const Action& action, const MeshDocument& document);
 
 /// Adds a layer with a mesh.
 MeshModel& add(MeshDocument& document, const Mesh& mesh, const char* label = "mesh");

@@ -1,4 +1,4 @@
-"""A thousand calls in one process: no growth, no crash at its end with a kept pyramid alive."""
+"""A thousand calls in one process: no growth, no crash at its end with a kept pyramid alive. Too little memory."""
 
 import json
 import pathlib
@@ -7,8 +7,9 @@ import subprocess
 import sys
 import textwrap
 
-from conftest import FILTERS, PLUGINS
+from conftest import BUILD, FILTERS, PLUGINS
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 CALLS = 1000
 GROWTH = 8e6  # bytes from the 200th call to the last
 
@@ -47,12 +48,17 @@ def test_a_thousand_calls_do_not_grow(tmp_path):
     assert sizes[-1] - sizes[1] < GROWTH, sizes
 
 
+def test_too_little_address_space_is_an_error_that_changes_nothing():
+    command = [sys.executable, ROOT / "tests/bench/load.py", "--vertices", "200000", "--build", BUILD]
+    run = subprocess.run(command, capture_output=True, text=True)
+    assert run.returncode == 0, run.stdout + run.stderr
+
+
 def test_no_filter_opens_a_file():
     """Meshes and scripts of strangers can make a filter fail, no more: nothing in our sources can touch a file."""
-    root = pathlib.Path(__file__).resolve().parents[2]
-    sources = [p for folder in ("common", "plugins") for p in (root / folder).rglob("*") if p.suffix in (".h", ".cpp")]
+    sources = [p for folder in ("common", "plugins") for p in (ROOT / folder).rglob("*") if p.suffix in (".h", ".cpp")]
     assert len(sources) > 50
     files = re.compile(r"<(fstream|filesystem|cstdio|QFile|QDir|QSaveFile|QTemporaryFile|fcntl\.h)>|\b(fopen|system|popen)\(")
-    users = {p.relative_to(root).as_posix(): set(files.findall(p.read_text())) for p in sources}
+    users = {p.relative_to(ROOT).as_posix(): set(files.findall(p.read_text())) for p in sources}
     with_files = {name: {"".join(hit) for hit in found} for name, found in users.items() if found}
     assert all(found == {"cstdio"} for found in with_files.values()), with_files  # for snprintf
