@@ -23,8 +23,9 @@ struct Kept {
 /// they are never read, kept() gives nulls and Keeper puts a new slot in their place.
 ///
 /// vcg meshes do not free their attributes, so the document has a list of them (a child of the QObject, by name again),
-/// and what deleted meshes kept is released at the next call of a filter, or when the document is destroyed. The
-/// attribute itself, some bytes, stays behind.
+/// and what deleted meshes kept is released at the next call of a filter, or when the document is destroyed: not at
+/// once, for Qt crashes where memory runs out while a signal is connected. The attribute itself, some bytes, stays
+/// behind.
 ///
 /// The pyramid's code belongs to the plugin that built it, and hosts unload plugins before they delete meshes; our
 /// plugins are therefore linked to stay loaded (-z nodelete).

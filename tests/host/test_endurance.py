@@ -48,6 +48,36 @@ def test_a_thousand_calls_do_not_grow(tmp_path):
     assert sizes[-1] - sizes[1] < GROWTH, sizes
 
 
+def test_what_a_deleted_layer_kept_is_released_at_the_next_call():
+    script = f"""
+        import json, os, subprocess, tempfile
+        import pymeshlab
+        pymeshlab.load_plugin({str(next(p for p in PLUGINS if "pyramid" in p.name))!r})
+
+        def resident():
+            with open("/proc/self/statm") as file:
+                return int(file.read().split()[1]) * os.sysconf("SC_PAGE_SIZE")
+
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([{str(BUILD / "meshes/make_meshes")!r}, folder, "200000"], check=True)
+            ms = pymeshlab.MeshSet()
+            ms.create_cube()
+            ms.load_new_mesh(folder + "/scan_200000.ply")
+        sizes = [resident()]
+        ms.apply_filter("compute_multires_pyramid")
+        sizes.append(resident())
+        ms.delete_current_mesh()
+        ms.apply_filter("compute_multires_pyramid")
+        sizes.append(resident())
+        print(json.dumps(sizes))
+    """
+    run = subprocess.run([sys.executable, "-c", textwrap.dedent(script)], capture_output=True, text=True)
+    assert run.returncode == 0, run.stderr
+    before, kept, after = json.loads(run.stdout.splitlines()[-1])
+    assert kept - before > 5e7
+    assert after - before < (kept - before) / 2, (before, kept, after)
+
+
 def test_too_little_address_space_is_an_error_that_changes_nothing():
     command = [sys.executable, ROOT / "tests/bench/load.py", "--vertices", "200000", "--build", BUILD]
     run = subprocess.run(command, capture_output=True, text=True)
