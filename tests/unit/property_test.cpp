@@ -116,6 +116,76 @@ TEST(Commuting, FiltersOfDifferentDataGiveTheSameInAnyOrder) {
     } while (std::next_permutation(order.begin(), order.end()));
 }
 
+namespace {
+
+/// A call, and what it has to do with: positions all read.
+struct Step {
+    const Filter* filter;
+    std::map<std::string, double> values;
+    std::uint32_t reads = vertex_positions, writes = none;
+};
+
+/// Every filter, and where attributes can be chosen, every single one of them.
+std::vector<Step> all_steps(const Layer& layer) {
+    constexpr std::pair<const char*, Parts> choices[] = {{"color", vertex_color},
+                                                         {"quality", vertex_quality},
+                                                         {"texcoord", vertex_texcoord},
+                                                         {"wedge_texcoord", wedge_texcoord},
+                                                         {"custom", custom_attributes}};
+    std::vector<Step> steps;
+    for (const Filter* filter : all_filters()) {
+        std::map<std::string, double> none_chosen;
+        for (const Declared& d : declared(*filter, &layer))
+            for (const auto& [name, part] : choices)
+                if (d.name == name) none_chosen[d.name] = 0;
+        for (const auto& [name, part] : choices) {
+            if (none_chosen.count(name) == 0) continue;
+            Step step{filter, none_chosen, vertex_positions | part, part};
+            step.values[name] = 1;
+            steps.push_back(std::move(step));
+        }
+        if (none_chosen.empty())  // a new layer changes nothing of this one
+            steps.push_back(
+                {filter, {}, vertex_positions | filter->needs | filter->reads, filter->changes & ~new_layer});
+    }
+    return steps;
+}
+
+bool commute(const Step& a, const Step& b) {
+    return !(a.writes & (b.reads | b.writes)) && !(b.writes & (a.reads | a.writes));
+}
+
+/// What the two compute, one after the other; of the reports nothing, for they tell whether a pyramid was there.
+std::vector<double> in_turn(const Layer& layer, const Step& first, const Step& second, bool swapped) {
+    Session session;
+    const auto result_on = [&](const Layer& l, const Step& step) {
+        Given given(step.values);
+        Result r = step.filter->run(given, l, session);
+        r.report = Report();
+        return r;
+    };
+    const Result one = result_on(layer, first), two = result_on(after(layer, one), second);
+    std::vector<double> out = fixtures::numbers(swapped ? two : one), last = fixtures::numbers(swapped ? one : two);
+    out.insert(out.end(), last.begin(), last.end());
+    return out;
+}
+
+}  // namespace
+
+TEST(Commuting, PairsOfFiltersThatReadNothingTheOtherWritesGiveTheSameInBothOrders) {
+    const Layer layer = with_data(shapes::scan(500, {}));
+    const std::vector<Step> steps = all_steps(layer);
+    int pairs = 0;
+    for (const Step& a : steps)
+        for (const Step& b : steps) {
+            if (&a >= &b || !commute(a, b)) continue;
+            SCOPED_TRACE(a.filter->python_name + " and " + b.filter->python_name);
+            EXPECT_EQ(in_turn(layer, a, b, false), in_turn(layer, b, a, true));
+            ++pairs;
+        }
+    EXPECT_GT(pairs, 80);
+}
+
 // ---- invariance -----------------------------------------------------------------------------------------------------
 
 namespace {
