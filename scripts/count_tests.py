@@ -3,9 +3,10 @@
 
     scripts/count_tests.py BUILD...
 
-Each build folder holds ctest.xml; tests have the same name in several. A CTest test named pytest_<name> stands for the cases in pytest_<name>.xml; if
-it failed without a report of a failing case (it crashed, say), it counts as a failure itself. A skipped test counts
-as a failure if CI=true, for nothing may be missing there; elsewhere it counts as neither, and is listed.
+Each build folder holds ctest.xml, or CTest itself failed. Tests have the same name in several folders. A CTest test
+named pytest_<name> stands for the cases in pytest_<name>.xml; if it failed without a report of a failing case (it
+crashed, say), it counts as a failure itself. A skipped test counts as a failure if CI=true, for nothing may be missing
+there; elsewhere it counts as neither, and is listed.
 """
 
 import os
@@ -25,6 +26,9 @@ def outcome(case):
 
 def cases(build):
     """(name, outcome) of every test of one build folder."""
+    if not (build / "ctest.xml").exists():
+        yield "ctest", "failed"
+        return
     for test in ET.parse(build / "ctest.xml").iter("testcase"):
         name, result = test.get("name"), outcome(test)
         report = build / f"{name}.xml"
