@@ -20,17 +20,17 @@ struct Counter {
 };
 
 /// Where a detail vector has its normal part: the third axis of local frames, or the surface's normal in world axes.
-Vec3 normal_axis(const Hierarchy& h, const Rings& rings, Index row, bool local) {
+Vec3 normal_axis(const Hierarchy& h, const Positions& positions, const Rings& rings, Index row, bool local) {
     if (local) return {0, 0, 1};
-    return ring_frame(rings.begin(row), rings.size(row), [&](Index v) { return h.positions[v]; }).n;
+    return ring_frame(rings.begin(row), rings.size(row), [&](Index v) { return positions[h.order[v]]; }).n;
 }
 
 class Thresholding {
 public:
-    Thresholding(const KeptPyramid& pyramid, const DenoiseOptions& options, double given, double deviation,
-                 const std::vector<double>& confidence)
-        : h_(pyramid.hierarchy()), options_(options), given_(given), deviation_(deviation), confidence_(confidence),
-          gains_(noise_gains(h_, pyramid.transform())), coefficients_(pyramid.coefficients()),
+    Thresholding(const KeptPyramid& pyramid, const Positions& positions, const DenoiseOptions& options, double given,
+                 double deviation, const std::vector<double>& confidence)
+        : h_(pyramid.hierarchy()), positions_(positions), options_(options), given_(given), deviation_(deviation),
+          confidence_(confidence), gains_(noise_gains(h_, pyramid.transform())), coefficients_(pyramid.coefficients()),
           local_(options.pyramid.scheme == Scheme::guskov) {
         for (Coefficients::Detail& d : coefficients_.detail) d = widened(d, 3);
     }
@@ -47,7 +47,7 @@ public:
                         counter);
             share_zeroed.push_back(counter.all ? static_cast<double>(counter.zeroed) / counter.all : 0);
         }
-        return positions_of(to_input(h_, pyramid.transform().synthesise(coefficients_)));
+        return positions_in_input(h_, pyramid.transform().synthesise(coefficients_));
     }
 
     std::vector<double> thresholds, noise, share_zeroed;
@@ -73,7 +73,7 @@ private:
             double* d = part.detail.row(r);
             bool zeroed;
             if (options_.normal_only) {
-                const Vec3 axis = normal_axis(h_, part.rings, r, local_);
+                const Vec3 axis = normal_axis(h_, positions_, part.rings, r, local_);
                 double along = axis.x() * d[0] + axis.y() * d[1] + axis.z() * d[2];
                 const double before = along;
                 zeroed = shrink(&along, 1, t, rule);
@@ -87,6 +87,7 @@ private:
     }
 
     const Hierarchy& h_;
+    const Positions& positions_;
     const DenoiseOptions& options_;
     double given_, deviation_;
     const std::vector<double>& confidence_;
@@ -111,7 +112,7 @@ Positions by_threshold(const Layer& layer, const DenoiseOptions& options, double
         Report unused;
         const auto pyramid = pyramid_of(layer, o, part, spin == 0 ? report : unused);
         if (spin == 0) session.pyramid = pyramid;
-        Thresholding thresholding(*pyramid, options, given, deviation, confidence);
+        Thresholding thresholding(*pyramid, layer.mesh.positions, options, given, deviation, confidence);
         const Positions p = thresholding.run(*pyramid);
         for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += (p[i] - mean[i]) / (spin + 1);
         if (spin > 0) continue;

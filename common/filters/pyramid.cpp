@@ -171,6 +171,7 @@ ContentHash content_hash(const Layer& layer, const PyramidOptions& o) {
 
 KeptPyramid::KeptPyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress)
     : hash_(content_hash(layer, options)) {
+    const BlockReuse reuse;
     const Progress building = progress.part(0.05, 0.6);
     progress.report(0, "Finding the neighbours");
     Rings rings = vertex_rings(layer.mesh);
@@ -182,10 +183,11 @@ KeptPyramid::KeptPyramid(const Layer& layer, const PyramidOptions& options, cons
     progress.report(0.8, "Computing details");
     coefficients_ = transform_->analyse(field_of(hierarchy_.positions), options.storage);
     levels_ = describe(hierarchy_, coefficients_, layer.mesh.faces);
+    hierarchy_.positions = Positions();  // the layer has them
     progress.report(1, "Pyramid built");
 }
 
-double KeptPyramid::reconstruction_error() const {
+double KeptPyramid::reconstruction_error(const Positions& positions) const {
     struct Largest {
         double square = 0;
         Largest& operator+=(const Largest& o) {
@@ -197,14 +199,14 @@ double KeptPyramid::reconstruction_error() const {
     const auto largest = chunked_reduce<Largest>(back.rows(), [&](std::size_t begin, std::size_t end) {
         Largest part;
         for (std::size_t p = begin; p < end; ++p)
-            part += {(hierarchy_.positions[p] - Vec3(back.row(static_cast<Index>(p)))).squaredNorm()};
+            part += {(positions[hierarchy_.order[p]] - Vec3(back.row(static_cast<Index>(p)))).squaredNorm()};
         return part;
     });
     return std::sqrt(largest.square);
 }
 
 Positions KeptPyramid::synthesise(const std::vector<double>& gain) const {
-    return positions_of(to_input(hierarchy_, transform_->synthesise(coefficients_, gain)));
+    return positions_in_input(hierarchy_, transform_->synthesise(coefficients_, gain));
 }
 
 std::shared_ptr<const KeptPyramid> pyramid_of(const Layer& layer, const PyramidOptions& options, Session& session,
@@ -241,7 +243,7 @@ Result compute_pyramid(const Layer& layer, const ComputePyramidOptions& options,
     result.report.add("vertices", vertices);
     result.report.add("wavelength", wavelength, "mesh units");
     result.report.add("rms_detail", rms_detail, "mesh units");
-    result.report.add("reconstruction_error", pyramid->reconstruction_error(), "mesh units");
+    result.report.add("reconstruction_error", pyramid->reconstruction_error(layer.mesh.positions), "mesh units");
     report_counts(count_input(layer.mesh, pyramid->hierarchy().irregular), result.report);
     return result;
 }

@@ -51,6 +51,7 @@ class KeptPyramid {
 public:
     KeptPyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress);
 
+    /// Without positions: place p is vertex order[p] of the layer.
     const Hierarchy& hierarchy() const { return hierarchy_; }
     const Transform& transform() const { return *transform_; }
     const Coefficients& coefficients() const { return coefficients_; }  ///< see widened()
@@ -59,7 +60,8 @@ public:
     const ContentHash& hash() const { return hash_; }
 
     /// Largest distance between the input's vertices and what synthesis without any gain gives, mesh units.
-    double reconstruction_error() const;
+    /// @param positions  of the layer
+    double reconstruction_error(const Positions& positions) const;
 
     /// Positions with the details of each level multiplied by a gain, in order of the input.
     Positions synthesise(const std::vector<double>& gain) const;

@@ -93,7 +93,8 @@ Field subdivided(const Layer& layer, const TexcoordOptions& options, const KeptP
         const Field given = vertex_channels(layer, own, false).at(0).field;
         for (Index p = 0; p < coarse.rows(); ++p) std::copy_n(given.row(h.order[p]), 2, coarse.row(p));
     } else {
-        for (Index p = 0; p < coarse.rows(); ++p) project(axes, options.projection, h.positions[p], coarse.row(p));
+        for (Index p = 0; p < coarse.rows(); ++p)
+            project(axes, options.projection, layer.mesh.positions[h.order[p]], coarse.row(p));
     }
     return to_input(h, pyramid.transform().subdivide(coarse, level));
 }

@@ -16,6 +16,17 @@ void* allocate(std::size_t bytes);  ///< throws std::bad_alloc
 void release(void* memory, std::size_t bytes) noexcept;
 }  // namespace array_detail
 
+/// While one lives, large blocks that are freed are kept for the next that are wanted, and go back to the system when
+/// it ends. The system would clear their pages each time it hands them out, and the levels of a pyramid free as much as
+/// they take. No more memory is held than was in use at some time before. Counted for all threads; may be nested.
+class BlockReuse {
+public:
+    BlockReuse() noexcept;
+    ~BlockReuse();
+    BlockReuse(const BlockReuse&) = delete;
+    BlockReuse& operator=(const BlockReuse&) = delete;
+};
+
 /// Allocator of Array: what resize() adds is not set to zero, and large blocks lie in huge pages. A pyramid is a few
 /// hundred large arrays that are written once: zeroing them, and faulting them in page by page, is work for nothing.
 template <class T>

@@ -76,19 +76,21 @@ public:
                      std::size_t to_level) const override {
         Field f = coefficients.base;
         f.values.reserve(static_cast<std::size_t>(h_.size[to_level]) * f.width);
-        for (std::size_t k = h_.levels.size(); k-- > to_level;)
-            synthesise_stored(k, coefficients.detail[k], gain.empty() ? 1 : gain[k], f);
+        for (std::size_t k = h_.levels.size(); k-- > to_level;) {
+            const Coefficients::Detail& d = coefficients.detail[k];
+            const double g = gain.empty() ? 1 : gain[k];
+            if (d.odd_single.empty())
+                synthesise_level<double>(k, {d.odd.values.data(), d.even.values.data(), &d}, g, f);
+            else
+                synthesise_level<float>(k, {d.odd_single.data(), d.even_single.data(), &d}, g, f);
+        }
         return f;
     }
 
     Field subdivide(const Field& values, std::size_t level) const override {
         Field f = values;
         f.values.reserve(static_cast<std::size_t>(h_.size[0]) * f.width);
-        for (std::size_t k = level; k-- > 0;) {
-            const Coefficients::Detail zero{
-                Field(h_.levels[k].odd.rows(), f.width), Field(h_.levels[k].even.rows(), f.width), {}, {}};
-            synthesise_level(k, zero, 0, f);
-        }
+        for (std::size_t k = level; k-- > 0;) synthesise_level<double>(k, {nullptr, nullptr, nullptr}, 0, f);
         return f;
     }
 
@@ -103,12 +105,13 @@ private:
         d.odd.values = d.even.values = Array<double>();
     }
 
-    void synthesise_stored(std::size_t k, const Coefficients::Detail& d, double gain, Field& f) const {
-        if (d.odd_single.empty() && d.even_single.empty())
-            synthesise_level(k, d, gain, f);
-        else
-            synthesise_level(k, widened(d, f.width), gain, f);
-    }
+    /// The details of a level, as they are stored; null: zero.
+    template <class Value>
+    struct Stored {
+        const Value* odd;
+        const Value* even;
+        const Coefficients::Detail* framed;
+    };
 
     /// From values of the fine level to those of the coarse one, in place; stores the details. Touches only the rows
     /// that the level has: with one vertex per level there are few.
@@ -144,7 +147,8 @@ private:
     }
 
     /// The inverse of analyse_level with the details multiplied by `gain`.
-    void synthesise_level(std::size_t k, const Coefficients::Detail& d, double gain, Field& f) const {
+    template <class Value>
+    void synthesise_level(std::size_t k, const Stored<Value>& d, double gain, Field& f) const {
         const Level& level = h_.levels[k];
         const int width = f.width;
         const bool guskov = options_.scheme == Scheme::guskov;
@@ -153,8 +157,8 @@ private:
         Field odd = Field::unset(guskov ? level.odd.rows() : 0, width);
         predict_odd(k, f, [&](Index r, const double* predicted, const Frame* frame) {
             double* const at = f.row(level.coarse + r);
-            restore(d.odd.row(r), predicted, frame && is_framed(d.odd_framed, r) ? frame : nullptr, width, gain,
-                    guskov ? odd.row(r) : at);
+            const bool turned = frame && d.framed && is_framed(d.framed->odd_framed, r);
+            restore(row(d.odd, r, width), predicted, turned ? frame : nullptr, width, gain, guskov ? odd.row(r) : at);
             if (guskov) std::copy_n(predicted, width, at);
         });
         Field even = Field::unset(level.even.rows(), width);  // rows need the old values of all
@@ -162,9 +166,9 @@ private:
         const auto vertex = [&](Index r) { return level.even.vertex(r); };
         for_relaxed_rows(even_[k], 0, level.even.rows(), f, vertex, [&](Index r, const double* relaxed) {
             Frame frame;
-            const bool turned = frames && is_framed(d.even_framed, r);
+            const bool turned = frames && d.framed && is_framed(d.framed->even_framed, r);
             if (turned) frame = frame_of(level.even, r, f);
-            restore(d.even.row(r), relaxed, turned ? &frame : nullptr, width, gain, even.row(r));
+            restore(row(d.even, r, width), relaxed, turned ? &frame : nullptr, width, gain, even.row(r));
         });
         parallel_for(level.even.rows(), [&](Index r) { std::copy_n(even.row(r), width, f.row(vertex(r))); });
         parallel_for(odd.rows(), [&](Index r) { std::copy_n(odd.row(r), width, f.row(level.coarse + r)); });
@@ -208,8 +212,18 @@ private:
         std::copy_n(local.data(), 3, detail);
     }
 
-    static void restore(const double* detail, const double* predicted, const Frame* frame, int width, double gain,
+    template <class Value>
+    static const Value* row(const Value* values, Index r, int width) {
+        return values ? values + static_cast<std::size_t>(r) * width : nullptr;
+    }
+
+    template <class Value>
+    static void restore(const Value* detail, const double* predicted, const Frame* frame, int width, double gain,
                         double* value) {
+        if (!detail) {
+            std::copy_n(predicted, width, value);
+            return;
+        }
         int c = 0;
         if (frame) {
             const Vec3 world = frame->to_world(Vec3(detail[0], detail[1], detail[2]));

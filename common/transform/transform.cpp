@@ -44,6 +44,12 @@ Field field_of(const Positions& positions) {
     return f;
 }
 
+Positions positions_in_input(const Hierarchy& hierarchy, const Field& places) {
+    Positions out(places.rows());
+    parallel_for(places.rows(), [&](Index p) { out[hierarchy.order[p]] = Vec3(places.row(p)); });
+    return out;
+}
+
 Positions positions_of(const Field& field) {
     Positions p(field.rows());
     parallel_for(field.rows(), [&](Index i) { p[i] = Vec3(field.row(i)[0], field.row(i)[1], field.row(i)[2]); });

@@ -79,5 +79,7 @@ Field to_places(const Hierarchy& hierarchy, const Field& input);
 Field to_input(const Hierarchy& hierarchy, const Field& places);
 Field field_of(const Positions& positions);
 Positions positions_of(const Field& field);
+/// positions_of(to_input(...)) without the field between.
+Positions positions_in_input(const Hierarchy& hierarchy, const Field& places);
 
 }  // namespace multires
