@@ -87,8 +87,7 @@ double rms_length(const Coefficients::Detail& d) {
     return values ? std::sqrt(sum / (static_cast<double>(values) / 3)) : 0;
 }
 
-std::vector<LevelInfo> describe(const Hierarchy& h, const Coefficients& c, const Faces& faces) {
-    const std::vector<double> wavelength = wavelengths(h, faces);
+std::vector<LevelInfo> describe(const Hierarchy& h, const Coefficients& c, const std::vector<double>& wavelength) {
     std::vector<LevelInfo> info(wavelength.size());
     for (std::size_t k = 0; k < info.size(); ++k) {
         info[k].vertices = h.size[k] - h.isolated;
@@ -181,9 +180,11 @@ KeptPyramid::KeptPyramid(const Layer& layer, const PyramidOptions& options, cons
     progress.report(0.6, "Computing weights");
     transform_ = relaxation_transform(hierarchy_, transform_options(options));
     progress.report(0.8, "Computing details");
-    coefficients_ = transform_->analyse(field_of(hierarchy_.positions), options.storage);
-    levels_ = describe(hierarchy_, coefficients_, layer.mesh.faces);
+    Field f = field_of(hierarchy_.positions);
+    const std::vector<double> wavelength = wavelengths(hierarchy_, layer.mesh.faces);
     hierarchy_.positions = Positions();  // the layer has them
+    coefficients_ = transform_->analyse(std::move(f), options.storage);
+    levels_ = describe(hierarchy_, coefficients_, wavelength);
     progress.report(1, "Pyramid built");
 }
 

@@ -7,6 +7,9 @@
 #ifdef __linux__
 #include <sys/mman.h>
 #endif
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace multires {
 namespace {
@@ -42,8 +45,12 @@ public:
 
     void end() {
         const std::lock_guard<std::mutex> lock(mutex_);
-        --users_;
         give_back(std::numeric_limits<std::size_t>::max());
+        if (--users_ > 0 || !used_) return;
+        used_ = false;
+#ifdef __GLIBC__
+        malloc_trim(0);
+#endif
     }
 
     /// The smallest block that is large enough, cut to size; or a new one, for which as much as there is in smaller
@@ -79,6 +86,7 @@ public:
             return;
         }
         blocks_[count_++] = {begin, size};
+        used_ = true;
     }
 
 private:
@@ -100,6 +108,7 @@ private:
     std::mutex mutex_;
     Block blocks_[most];
     int count_ = 0, users_ = 0;
+    bool used_ = false;  ///< there was a large block since there were users
 };
 
 Pool& pool() {

@@ -27,14 +27,14 @@ bool has_area(const Face& f, const Positions& p) {
 
 /// Items sorted into buckets 0 .. buckets-1 in linear time, in their order.
 struct Buckets {
-    std::vector<Index> first, item;  // items of bucket b: item[first[b] .. first[b+1])
+    Array<Index> first, item;  // items of bucket b: item[first[b] .. first[b+1])
 
     template <class BucketOf>
-    Buckets(Index buckets, Index items, BucketOf bucket_of) : first(buckets + 1, 0), item(items) {
-        for (Index i = 0; i < items; ++i) ++first[bucket_of(i) + 1];
+    Buckets(Index buckets, Index items, BucketOf bucket_of) : first(buckets + 2, 0), item(items) {
+        for (Index i = 0; i < items; ++i) ++first[bucket_of(i) + 2];
         std::partial_sum(first.begin(), first.end(), first.begin());
-        std::vector<Index> next(first.begin(), first.end() - 1);
-        for (Index i = 0; i < items; ++i) item[next[bucket_of(i)]++] = i;
+        for (Index i = 0; i < items; ++i) item[first[bucket_of(i) + 1]++] = i;  // its end comes to lie where it ends
+        first.pop_back();
     }
     Index buckets() const { return static_cast<Index>(first.size()) - 1; }
 };
@@ -64,20 +64,14 @@ struct Sets {
         return true;
     }
 
-    std::vector<Index> parent;
-    std::vector<std::uint8_t> side;
+    Array<Index> parent;
+    Array<std::uint8_t> side;
 };
 
-/// The faces that count, their indices in ascending order.
-Faces sorted_faces(const Faces& faces) {
-    Faces sorted;
-    sorted.reserve(faces.size());
-    for (Face f : faces) {
-        if (repeats_an_index(f)) continue;
-        std::sort(f.begin(), f.end());
-        sorted.push_back(f);
-    }
-    return sorted;
+/// The indices of a face in ascending order.
+Face ascending(Face f) {
+    std::sort(f.begin(), f.end());
+    return f;
 }
 
 Index count_unreferenced(const Mesh& mesh) {
@@ -116,13 +110,17 @@ Index count_duplicate_vertices(const Positions& positions) {
     return count;
 }
 
-Index count_duplicate_faces(Index vertices, const Faces& sorted) {
-    Buckets buckets(vertices, static_cast<Index>(sorted.size()), [&](Index f) { return sorted[f][0]; });
+Index count_duplicate_faces(Index vertices, const Faces& faces) {
+    const auto smallest = [&](Index f) { return std::min({faces[f][0], faces[f][1], faces[f][2]}); };
+    Buckets buckets(vertices, static_cast<Index>(faces.size()), smallest);
+    std::vector<Face> of_vertex;
     Index count = 0;
     for (Index v = 0; v < vertices; ++v) {
-        const auto begin = buckets.item.begin() + buckets.first[v], end = buckets.item.begin() + buckets.first[v + 1];
-        std::sort(begin, end, [&](Index f, Index g) { return sorted[f] < sorted[g]; });
-        for (auto i = begin; i != end && i + 1 != end; ++i) count += sorted[*i] == sorted[*(i + 1)];
+        of_vertex.clear();
+        for (Index i = buckets.first[v]; i < buckets.first[v + 1]; ++i)
+            if (!repeats_an_index(faces[buckets.item[i]])) of_vertex.push_back(ascending(faces[buckets.item[i]]));
+        std::sort(of_vertex.begin(), of_vertex.end());
+        for (std::size_t i = 1; i < of_vertex.size(); ++i) count += of_vertex[i - 1] == of_vertex[i];
     }
     return count;
 }
@@ -133,11 +131,13 @@ void count_vertices(const Mesh& mesh, InputCounts& counts) {
 }
 
 void count_faces(const Mesh& mesh, InputCounts& counts) {
-    const Faces sorted = sorted_faces(mesh.faces);
-    counts.degenerate_faces = static_cast<Index>(mesh.faces.size() - sorted.size());
-    counts.zero_area_faces = static_cast<Index>(
-        std::count_if(sorted.begin(), sorted.end(), [&](const Face& f) { return !has_area(f, mesh.positions); }));
-    counts.duplicate_faces = count_duplicate_faces(counts.vertices, sorted);
+    for (const Face& f : mesh.faces) {
+        if (repeats_an_index(f))
+            ++counts.degenerate_faces;
+        else
+            counts.zero_area_faces += !has_area(f, mesh.positions);
+    }
+    counts.duplicate_faces = count_duplicate_faces(counts.vertices, mesh.faces);
 }
 
 /// One side of a face, as seen from its smaller vertex.

@@ -59,9 +59,8 @@ public:
         }
     }
 
-    Coefficients analyse(const Field& input, Storage storage) const override {
+    Coefficients analyse(Field f, Storage storage) const override {
         Coefficients out;
-        Field f = input;
         for (std::size_t k = 0; k < h_.levels.size(); ++k) {
             out.detail.emplace_back();
             analyse_level(k, f, out.detail.back());
@@ -134,7 +133,7 @@ private:
         }
         const bool frames = framed(f);
         if (frames) d.odd_framed.resize(level.odd.rows()), d.even_framed.resize(level.even.rows());
-        predict_odd(k, f, [&](Index r, const double* predicted, const Frame* frame) {
+        predict_odd(k, f, frames, [&](Index r, const double* predicted, const Frame* frame) {
             store(d.odd.row(r), predicted, frame, width, d.odd_framed, r);
             if (options_.scheme == Scheme::guskov) std::copy_n(predicted, width, f.row(level.coarse + r));
         });
@@ -153,14 +152,17 @@ private:
         const int width = f.width;
         const bool guskov = options_.scheme == Scheme::guskov;
         f.values.resize(static_cast<std::size_t>(level.fine) * width);
-        // Guskov predicts even vertices from predicted odd ones; the odd ones' own values wait until that is done.
-        Field odd = Field::unset(guskov ? level.odd.rows() : 0, width);
-        predict_odd(k, f, [&](Index r, const double* predicted, const Frame* frame) {
-            double* const at = f.row(level.coarse + r);
+        const auto finish_odd = [&](Index r, const double* predicted, const Frame* frame) {
             const bool turned = frame && d.framed && is_framed(d.framed->odd_framed, r);
-            restore(row(d.odd, r, width), predicted, turned ? frame : nullptr, width, gain, guskov ? odd.row(r) : at);
-            if (guskov) std::copy_n(predicted, width, at);
-        });
+            restore(row(d.odd, r, width), predicted, turned ? frame : nullptr, width, gain, f.row(level.coarse + r));
+        };
+        // Guskov predicts even vertices from predicted odd ones: those are finished when that is done.
+        if (guskov)
+            predict_odd(k, f, false, [&](Index r, const double* predicted, const Frame*) {
+                std::copy_n(predicted, width, f.row(level.coarse + r));
+            });
+        else
+            predict_odd(k, f, false, finish_odd);
         Field even = Field::unset(level.even.rows(), width);  // rows need the old values of all
         const bool frames = framed(f);
         const auto vertex = [&](Index r) { return level.even.vertex(r); };
@@ -170,16 +172,30 @@ private:
             if (turned) frame = frame_of(level.even, r, f);
             restore(row(d.even, r, width), relaxed, turned ? &frame : nullptr, width, gain, even.row(r));
         });
+        if (guskov) finish_predicted(k, f, finish_odd);
         parallel_for(level.even.rows(), [&](Index r) { std::copy_n(even.row(r), width, f.row(vertex(r))); });
-        parallel_for(odd.rows(), [&](Index r) { std::copy_n(odd.row(r), width, f.row(level.coarse + r)); });
     }
 
-    /// Predicts every odd vertex from g and hands (row, prediction, frame or null) to `take`, which may write g at that
-    /// vertex. One set of odd vertices after the other.
-    template <class Take>
-    void predict_odd(std::size_t k, const Field& g, const Take& take) const {
+    /// Calls finish(row, prediction, frame or null) for the odd vertices, whose predictions g holds; it may write g at
+    /// that vertex. The sets in reverse order, so that frames are those of predicted vertices.
+    template <class Finish>
+    void finish_predicted(std::size_t k, const Field& g, const Finish& finish) const {
         const Level& level = h_.levels[k];
         const bool frames = framed(g);
+        for (std::size_t s = level.sets.size() - 1; s-- > 0;)
+            parallel_for(level.sets[s + 1] - level.sets[s], [&](Index i) {
+                const Index r = level.sets[s] + i;
+                Frame frame;
+                if (frames) frame = frame_of(level.odd, r, g);
+                finish(r, g.row(level.coarse + r), frames ? &frame : nullptr);
+            });
+    }
+
+    /// Predicts every odd vertex from g and hands (row, prediction, frame if `frames`) to `take`, which may write g at
+    /// that vertex. One set of odd vertices after the other.
+    template <class Take>
+    void predict_odd(std::size_t k, const Field& g, bool frames, const Take& take) const {
+        const Level& level = h_.levels[k];
         const auto parent = [&](Index r) { return h_.parent[level.coarse + r]; };
         for (std::size_t s = 0; s + 1 < level.sets.size(); ++s)
             for_relaxed_rows(odd_[k], level.sets[s], level.sets[s + 1], g, parent,

@@ -60,7 +60,7 @@ public:
 
     /// @param f  #V rows in order of places; see Field::has_positions
     /// @param storage  of the details
-    virtual Coefficients analyse(const Field& f, Storage storage = Storage::wide) const = 0;
+    virtual Coefficients analyse(Field f, Storage storage = Storage::wide) const = 0;
 
     /// @param gain  one factor per level for its details, finest first; empty: all 1
     /// @param level  where to stop: 0 is the input's level, the number of levels gives the base back
