@@ -143,6 +143,7 @@ private:
             store(d.even.row(r), relaxed, frames ? &frame : nullptr, width, d.even_framed, r);
         });
         f.values.resize(static_cast<std::size_t>(level.coarse) * width);
+        if (f.values.capacity() > 3 * f.values.size() / 2) f.values.shrink_to_fit();
     }
 
     /// The inverse of analyse_level with the details multiplied by `gain`.
