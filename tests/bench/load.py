@@ -5,7 +5,7 @@
 A generated scan in pymeshlab, each filter in a process of its own: first with all the memory there is, then with limits
 of the address space at shares of what that took. A call with too little must end with an error that says so and leave
 the mesh as it was, and once the limit is gone the same call in the same process must give what it gave the first time.
-Prints a table; fails if anything is otherwise. At 10 million vertices it takes ten minutes and needs 16 GB.
+Prints a table; fails if anything is otherwise. At 10 million vertices it takes a quarter of an hour and 12 GB.
 """
 
 import argparse
