@@ -51,8 +51,9 @@ void sums_by_channel(const Table<Weight>& t, Index begin, Index end, const doubl
 #define MULTIRES_INLINE inline __attribute__((always_inline))
 
 using Four = double __attribute__((vector_size(32)));
-using FourUnaligned = double __attribute__((vector_size(32), aligned(8), may_alias));
-using Mask = std::int64_t __attribute__((vector_size(32), may_alias));
+// The attributes before the equals sign: after it, clang ignores the alignment.
+using FourUnaligned __attribute__((vector_size(32), aligned(8), may_alias)) = double;
+using Mask __attribute__((vector_size(32), may_alias)) = std::int64_t;
 
 constexpr Index few = 8, least = 4;
 
