@@ -34,6 +34,14 @@ struct Stencil {
     }
 };
 
+/// Copies one row. Three channels, the common case, without a call.
+inline void copy_row(const double* from, int width, double* to) {
+    if (width == 3)
+        to[0] = from[0], to[1] = from[1], to[2] = from[2];
+    else
+        std::copy_n(from, width, to);
+}
+
 /// Calls take(row, R f) for the rows begin..end-1, in parallel; those that keep their value take it from row keep(r) of
 /// f. What take() reads of a row's neighbours is still near.
 template <class Keep, class Take>
@@ -121,21 +129,21 @@ private:
         // The details start as the values themselves, while f becomes g of the header.
         d.odd = Field::unset(level.odd.rows(), width);
         d.even = Field::unset(level.even.rows(), width);
-        parallel_for(d.odd.rows(), [&](Index r) { std::copy_n(f.row(level.coarse + r), width, d.odd.row(r)); });
-        parallel_for(d.even.rows(), [&](Index r) { std::copy_n(f.row(even_vertex(r)), width, d.even.row(r)); });
+        parallel_for(d.odd.rows(), [&](Index r) { copy_row(f.row(level.coarse + r), width, d.odd.row(r)); });
+        parallel_for(d.even.rows(), [&](Index r) { copy_row(f.row(even_vertex(r)), width, d.even.row(r)); });
         if (options_.presmooth > 0) {
             Field smooth = Field::unset(level.even.rows(), width);
             for_relaxed_rows(even_[k], 0, level.even.rows(), f, even_vertex, [&](Index r, const double* relaxed) {
                 const double* const c = f.row(even_vertex(r));
                 for (int i = 0; i < width; ++i) smooth.row(r)[i] = c[i] + options_.presmooth * (relaxed[i] - c[i]);
             });
-            parallel_for(level.even.rows(), [&](Index r) { std::copy_n(smooth.row(r), width, f.row(even_vertex(r))); });
+            parallel_for(level.even.rows(), [&](Index r) { copy_row(smooth.row(r), width, f.row(even_vertex(r))); });
         }
         const bool frames = framed(f);
         if (frames) d.odd_framed.resize(level.odd.rows()), d.even_framed.resize(level.even.rows());
         predict_odd(k, f, frames, [&](Index r, const double* predicted, const Frame* frame) {
             store(d.odd.row(r), predicted, frame, width, d.odd_framed, r);
-            if (options_.scheme == Scheme::guskov) std::copy_n(predicted, width, f.row(level.coarse + r));
+            if (options_.scheme == Scheme::guskov) copy_row(predicted, width, f.row(level.coarse + r));
         });
         for_relaxed_rows(even_[k], 0, level.even.rows(), f, even_vertex, [&](Index r, const double* relaxed) {
             Frame frame;
@@ -160,7 +168,7 @@ private:
         // Guskov predicts even vertices from predicted odd ones: those are finished when that is done.
         if (guskov)
             predict_odd(k, f, false, [&](Index r, const double* predicted, const Frame*) {
-                std::copy_n(predicted, width, f.row(level.coarse + r));
+                copy_row(predicted, width, f.row(level.coarse + r));
             });
         else
             predict_odd(k, f, false, finish_odd);
@@ -174,7 +182,7 @@ private:
             restore(row(d.even, r, width), relaxed, turned ? &frame : nullptr, width, gain, even.row(r));
         });
         if (guskov) finish_predicted(k, f, finish_odd);
-        parallel_for(level.even.rows(), [&](Index r) { std::copy_n(even.row(r), width, f.row(vertex(r))); });
+        parallel_for(level.even.rows(), [&](Index r) { copy_row(even.row(r), width, f.row(vertex(r))); });
     }
 
     /// Calls finish(row, prediction, frame or null) for the odd vertices, whose predictions g holds; it may write g at
@@ -238,7 +246,7 @@ private:
     static void restore(const Value* detail, const double* predicted, const Frame* frame, int width, double gain,
                         double* value) {
         if (!detail) {
-            std::copy_n(predicted, width, value);
+            copy_row(predicted, width, value);
             return;
         }
         int c = 0;
