@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <cstdint>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
@@ -18,29 +19,56 @@ namespace {
 /// Without overflow for any count > 0.
 Index chunks_of(Index count, Index grain) { return (count - 1) / grain + 1; }
 
-/// One loop: chunks are taken from a counter until none is left.
-struct Job {
-    const void* body;
-    parallel_detail::Chunk chunk;
-    Index count, grain;
-    std::atomic<Index> next{0};
-    int helpers = 0;  // guarded by the pool's mutex, as is:
-    std::exception_ptr failure;
+/// One loop: the chunks are divided into a range for each thread, which it works through from its beginning, so that
+/// what one loop wrote is near when the next reads it; who is done takes from the others' until none is left.
+class Job {
+public:
+    Job(Index count, Index grain, const void* body, parallel_detail::Chunk chunk, int threads)
+        : body_(body), chunk_(chunk), count_(count), grain_(grain), ranges_(std::min(threads, most)) {
+        const std::int64_t chunks = chunks_of(count, grain);
+        for (int i = 0; i < ranges_; ++i) {
+            range_[i].next.store(chunks * i / ranges_, std::memory_order_relaxed);
+            range_[i].end = chunks * (i + 1) / ranges_;
+        }
+    }
 
-    void work(std::mutex& mutex) {
+    /// @param thread  0 for the caller, 1.. for its helpers
+    void work(int thread, std::mutex& mutex) {
         inside_loop = true;
-        const Index chunks = chunks_of(count, grain);
-        for (Index c; (c = next.fetch_add(1, std::memory_order_relaxed)) < chunks;) {
-            try {
-                chunk(body, c * grain, c * grain + std::min(grain, count - c * grain));
-            } catch (...) {
-                const std::lock_guard<std::mutex> lock(mutex);
-                if (!failure) failure = std::current_exception();
-                next.store(chunks, std::memory_order_relaxed);
+        for (int i = 0; i < ranges_; ++i) {
+            Range& range = range_[(thread + i) % ranges_];
+            for (std::int64_t c; !failed_.load(std::memory_order_relaxed) &&
+                                 (c = range.next.fetch_add(1, std::memory_order_relaxed)) < range.end;) {
+                try {
+                    const Index begin = static_cast<Index>(c * grain_);
+                    chunk_(body_, begin, begin + std::min(grain_, count_ - begin));
+                } catch (...) {
+                    const std::lock_guard<std::mutex> lock(mutex);
+                    if (!failure) failure = std::current_exception();
+                    failed_.store(true, std::memory_order_relaxed);
+                }
             }
         }
         inside_loop = false;
     }
+
+    // Guarded by the pool's mutex:
+    int helpers = 0, joined = 0;  ///< working now, and so far
+    std::exception_ptr failure;
+
+private:
+    static constexpr int most = 64;
+    struct alignas(64) Range {
+        std::atomic<std::int64_t> next;  // runs past the end by one for each thread that looks
+        std::int64_t end;
+    };
+
+    const void* body_;
+    parallel_detail::Chunk chunk_;
+    Index count_, grain_;
+    int ranges_;
+    std::atomic<bool> failed_{false};
+    Range range_[most];
 };
 
 /// Threads that sleep until there is a job. Never destroyed: a plugin may be unloaded at exit while they sleep.
@@ -63,7 +91,7 @@ public:
             }
         }
         if (threads > 1) wake_.notify_all();
-        job.work(mutex_);
+        job.work(0, mutex_);
         if (threads > 1) {
             std::unique_lock<std::mutex> lock(mutex_);
             job_ = nullptr;
@@ -96,8 +124,9 @@ private:
             Job* const job = job_;
             if (!job || job->helpers >= helpers_wanted_) continue;
             ++job->helpers;
+            const int thread = ++job->joined;
             lock.unlock();
-            job->work(mutex_);
+            job->work(thread, mutex_);
             lock.lock();
             if (--job->helpers == 0) done_.notify_all();
         }
@@ -136,8 +165,7 @@ void parallel_detail::run(Index count, Index grain, const void* body, Chunk chun
             chunk(body, begin, begin + std::min(grain, count - begin));
         return;
     }
-    Job job;
-    job.body = body, job.chunk = chunk, job.count = count, job.grain = grain;
+    Job job(count, grain, body, chunk, threads);
     Pool::instance().run(job, threads);
 }
 
