@@ -34,6 +34,7 @@ HierarchyOptions hierarchy_options(const PyramidOptions& o) {
     h.normal_limit_degrees = o.normal_limit;
     h.seed = o.seed;
     h.flaps = uses_flaps(o.op);
+    h.mean_edges = true;
     return h;
 }
 

@@ -77,7 +77,7 @@ Hierarchy assemble(std::vector<Step> steps, const HierarchyOptions& options) {
             level.sets.push_back(level.odd.rows());
         }
         level.odd.first = level.coarse;
-        h.mean_edge.push_back(steps[first].mean_edge);
+        if (options.mean_edges) h.mean_edge.push_back(steps[first].mean_edge);
         const Array<Index> rows = rows_between(place[first], 0, level.coarse);
         level.even = renumbered(steps[first].rings, rows, place[first], level.fine);
         level.even.vertices.resize(rows.size());
@@ -88,7 +88,7 @@ Hierarchy assemble(std::vector<Step> steps, const HierarchyOptions& options) {
     }
     if (options.flaps) find_flaps(steps.back().rings);
     h.base = std::move(steps.back().rings);
-    h.mean_edge.push_back(steps.back().mean_edge);
+    if (options.mean_edges) h.mean_edge.push_back(steps.back().mean_edge);
     return h;
 }
 

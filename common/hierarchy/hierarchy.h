@@ -32,8 +32,9 @@ struct HierarchyOptions {
     /// Weight of the edge-length term beside the quadric: cost = (Q_v + Q_u)(p_u) + weight * area_v * |p_v - p_u|^2.
     /// 0: quadric only (Roy); larger values keep vertices of a level evenly spaced, which sharpens bands.
     double length_weight = 0.1;
-    int seed = 0;       ///< other than 0: costs vary at random by up to half, for another hierarchy
-    bool flaps = true;  ///< store Rings::flap, for operators that need the 1-ring with flaps
+    int seed = 0;             ///< other than 0: costs vary at random by up to half, for another hierarchy
+    bool flaps = true;        ///< store Rings::flap, for operators that need the 1-ring with flaps
+    bool mean_edges = false;  ///< independent sets: fill Hierarchy::mean_edge
 };
 
 /// One level: what is needed to go between the mesh of `fine` vertices and that of `coarse` vertices.
@@ -63,7 +64,7 @@ struct Hierarchy {
     Rings base;                 ///< rings of the base's vertices (row i = place i)
     Positions positions;        ///< #V: positions in order of places
     /// #levels+1: mean edge lengths of the levels' meshes, an edge on the boundary counting as any other; mesh units.
-    /// Empty from Grouping::sequential.
+    /// Empty unless asked for.
     std::vector<double> mean_edge;
     Index irregular = 0;  ///< vertices kept because their neighbourhood is not a disk or half disk
     Index isolated = 0;   ///< vertices kept because no face holds them

@@ -290,7 +290,7 @@ std::vector<Step> independent_sets(Rings rings, Positions positions, const Hiera
         number(selection.parent(), selection.odd(), step);
         State t;
         if (selection.odd() > 0) t = next_state(s, step, selection.degree(), options);
-        if (steps.size() % options.sets_per_level == 0 || selection.odd() == 0)
+        if (options.mean_edges && (steps.size() % options.sets_per_level == 0 || selection.odd() == 0))
             step.mean_edge = mean_edge(s.rings, s.positions);
         step.rings = std::move(s.rings);
         steps.push_back(std::move(step));

@@ -115,7 +115,7 @@ MULTIRES_INLINE void sums_by_four(const Table<Weight>& t, Index begin, Index end
     constexpr Index values_ahead = 2048, weights_ahead = 256;
     for (Index r = begin; r < end; ++r, out += Width) {
         const Index first = t.offset[r], size = t.offset[r + 1] - first;
-        if (first + values_ahead < t.entries)
+        if (t.entries - first > values_ahead)
             for (int h = 0; h < Halves; ++h) {
                 const Half<Weight>& half = t.half[h];
                 __builtin_prefetch(f + Width * static_cast<std::size_t>(half.vertex[first + values_ahead]));
@@ -123,7 +123,7 @@ MULTIRES_INLINE void sums_by_four(const Table<Weight>& t, Index begin, Index end
             }
         Four sum{}, base{};
         if (differences && size > 0) base = load<Width>(f + Width * static_cast<std::size_t>(t.half[0].vertex[first]));
-        const bool room = first + few <= t.entries;
+        const bool room = t.entries - first >= few;
         for (int h = 0; h < Halves; ++h) sum = add_half<Width>(sum, base, t.half[h], first, size, room, f);
         if (differences) sum += base;
         std::memcpy(out, &sum, Width * sizeof(double));

@@ -112,12 +112,14 @@ private:
         d.odd.values = d.even.values = Array<double>();
     }
 
+    using Detail = Coefficients::Detail;
+
     /// The details of a level, as they are stored; null: zero.
     template <class Value>
     struct Stored {
         const Value* odd;
         const Value* even;
-        const Coefficients::Detail* framed;
+        const Detail* framed;
     };
 
     /// From values of the fine level to those of the coarse one, in place; stores the details. Touches only the rows
@@ -141,8 +143,10 @@ private:
         }
         const bool frames = framed(f);
         if (frames) d.odd_framed.resize(level.odd.rows()), d.even_framed.resize(level.even.rows());
-        predict_odd(k, f, frames, [&](Index r, const double* predicted, const Frame* frame) {
-            store(d.odd.row(r), predicted, frame, width, d.odd_framed, r);
+        predict_odd(k, f, [&](Index r, const double* predicted) {
+            Frame frame;
+            if (frames) frame = frame_of(level.odd, r, f);
+            store(d.odd.row(r), predicted, frames ? &frame : nullptr, width, d.odd_framed, r);
             if (options_.scheme == Scheme::guskov) copy_row(predicted, width, f.row(level.coarse + r));
         });
         for_relaxed_rows(even_[k], 0, level.even.rows(), f, even_vertex, [&](Index r, const double* relaxed) {
@@ -161,58 +165,46 @@ private:
         const int width = f.width;
         const bool guskov = options_.scheme == Scheme::guskov;
         f.values.resize(static_cast<std::size_t>(level.fine) * width);
-        const auto finish_odd = [&](Index r, const double* predicted, const Frame* frame) {
-            const bool turned = frame && d.framed && is_framed(d.framed->odd_framed, r);
-            restore(row(d.odd, r, width), predicted, turned ? frame : nullptr, width, gain, f.row(level.coarse + r));
+        const bool frames = framed(f) && d.framed;
+        const auto finish = [&](const Rings& rings, Index r, const Value* details,
+                                const std::vector<std::uint8_t> Detail::*flags, const double* predicted,
+                                double* value) {
+            Frame frame;
+            const bool turned = frames && is_framed(d.framed->*flags, r);
+            if (turned) frame = frame_of(rings, r, f);
+            restore(row(details, r, width), predicted, turned ? &frame : nullptr, width, gain, value);
+        };
+        const auto finish_odd = [&](Index r, const double* predicted) {
+            finish(level.odd, r, d.odd, &Detail::odd_framed, predicted, f.row(level.coarse + r));
         };
         // Guskov predicts even vertices from predicted odd ones: those are finished when that is done.
         if (guskov)
-            predict_odd(k, f, false, [&](Index r, const double* predicted, const Frame*) {
-                copy_row(predicted, width, f.row(level.coarse + r));
-            });
+            predict_odd(k, f,
+                        [&](Index r, const double* predicted) { copy_row(predicted, width, f.row(level.coarse + r)); });
         else
-            predict_odd(k, f, false, finish_odd);
+            predict_odd(k, f, finish_odd);
         Field even = Field::unset(level.even.rows(), width);  // rows need the old values of all
-        const bool frames = framed(f);
         const auto vertex = [&](Index r) { return level.even.vertex(r); };
         for_relaxed_rows(even_[k], 0, level.even.rows(), f, vertex, [&](Index r, const double* relaxed) {
-            Frame frame;
-            const bool turned = frames && d.framed && is_framed(d.framed->even_framed, r);
-            if (turned) frame = frame_of(level.even, r, f);
-            restore(row(d.even, r, width), relaxed, turned ? &frame : nullptr, width, gain, even.row(r));
+            finish(level.even, r, d.even, &Detail::even_framed, relaxed, even.row(r));
         });
-        if (guskov) finish_predicted(k, f, finish_odd);
+        if (guskov)  // the sets in reverse order, so that frames are those of predicted vertices
+            for (std::size_t s = level.sets.size() - 1; s-- > 0;)
+                parallel_for(level.sets[s + 1] - level.sets[s], [&](Index i) {
+                    const Index r = level.sets[s] + i;
+                    finish_odd(r, f.row(level.coarse + r));
+                });
         parallel_for(level.even.rows(), [&](Index r) { copy_row(even.row(r), width, f.row(vertex(r))); });
     }
 
-    /// Calls finish(row, prediction, frame or null) for the odd vertices, whose predictions g holds; it may write g at
-    /// that vertex. The sets in reverse order, so that frames are those of predicted vertices.
-    template <class Finish>
-    void finish_predicted(std::size_t k, const Field& g, const Finish& finish) const {
-        const Level& level = h_.levels[k];
-        const bool frames = framed(g);
-        for (std::size_t s = level.sets.size() - 1; s-- > 0;)
-            parallel_for(level.sets[s + 1] - level.sets[s], [&](Index i) {
-                const Index r = level.sets[s] + i;
-                Frame frame;
-                if (frames) frame = frame_of(level.odd, r, g);
-                finish(r, g.row(level.coarse + r), frames ? &frame : nullptr);
-            });
-    }
-
-    /// Predicts every odd vertex from g and hands (row, prediction, frame if `frames`) to `take`, which may write g at
-    /// that vertex. One set of odd vertices after the other.
+    /// Predicts every odd vertex from g and hands (row, prediction) to `take`, which may write g at that vertex. One
+    /// set of odd vertices after the other.
     template <class Take>
-    void predict_odd(std::size_t k, const Field& g, bool frames, const Take& take) const {
+    void predict_odd(std::size_t k, const Field& g, const Take& take) const {
         const Level& level = h_.levels[k];
         const auto parent = [&](Index r) { return h_.parent[level.coarse + r]; };
         for (std::size_t s = 0; s + 1 < level.sets.size(); ++s)
-            for_relaxed_rows(odd_[k], level.sets[s], level.sets[s + 1], g, parent,
-                             [&](Index r, const double* predicted) {
-                                 Frame frame;
-                                 if (frames) frame = frame_of(level.odd, r, g);
-                                 take(r, predicted, frames ? &frame : nullptr);
-                             });
+            for_relaxed_rows(odd_[k], level.sets[s], level.sets[s + 1], g, parent, take);
     }
 
     static Frame frame_of(const Rings& rings, Index r, const Field& g) {

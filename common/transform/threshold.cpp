@@ -1,6 +1,7 @@
 #include "transform/threshold.h"
 
 #include <cstdint>
+#include <utility>
 
 namespace multires {
 namespace {
@@ -30,7 +31,7 @@ std::vector<NoiseGain> noise_gains(const Hierarchy& hierarchy, const Transform& 
     Field noise(hierarchy.vertices(), 1);
     noise.has_positions = false;
     for (Index i = 0; i < noise.rows(); ++i) noise.values[i] = normal_number(static_cast<std::uint64_t>(i));
-    const Coefficients c = transform.analyse(noise);
+    const Coefficients c = transform.analyse(std::move(noise));
     std::vector<NoiseGain> gains;
     for (const Coefficients::Detail& d : c.detail) gains.push_back({rms(d.odd), rms(d.even)});
     return gains;
