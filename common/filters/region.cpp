@@ -1,7 +1,7 @@
 #include "filters/region.h"
 
+#include "base/parallel.h"
 #include "measure/measure.h"
-#include "parallel/parallel.h"
 
 #include <algorithm>
 #include <cmath>

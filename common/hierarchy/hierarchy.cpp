@@ -1,10 +1,10 @@
 #include "hierarchy/hierarchy.h"
 
+#include "base/parallel.h"
 #include "hierarchy/independent_sets.h"
 #include "hierarchy/renumber.h"
 #include "hierarchy/sequential.h"
 #include "mesh/adjacency.h"
-#include "parallel/parallel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 #include "hierarchy/independent_sets.h"
 
+#include "base/parallel.h"
+#include "base/radix_sort.h"
+#include "base/reduce.h"
 #include "hierarchy/collapse.h"
-#include "measure/reduce.h"
-#include "mesh/radix_sort.h"
-#include "parallel/parallel.h"
 
 #include <algorithm>
 

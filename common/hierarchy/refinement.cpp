@@ -1,6 +1,6 @@
 #include "hierarchy/refinement.h"
 
-#include "parallel/parallel.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <limits>

@@ -1,9 +1,9 @@
 #include "measure/distance.h"
 
+#include "base/parallel.h"
+#include "base/radix_sort.h"
+#include "base/reduce.h"
 #include "measure/measure.h"
-#include "measure/reduce.h"
-#include "mesh/radix_sort.h"
-#include "parallel/parallel.h"
 
 #include <algorithm>
 #include <cmath>

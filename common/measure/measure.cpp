@@ -1,7 +1,7 @@
 #include "measure/measure.h"
 
-#include "measure/reduce.h"
-#include "parallel/parallel.h"
+#include "base/parallel.h"
+#include "base/reduce.h"
 
 #include <cmath>
 #include <limits>

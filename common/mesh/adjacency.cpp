@@ -1,6 +1,6 @@
 #include "mesh/adjacency.h"
 
-#include "parallel/parallel.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "mesh/array.h"
+#include "base/array.h"
+#include "base/index.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -12,8 +13,6 @@
 /// Flat indexed triangle meshes: the only mesh type that common/ computes on.
 namespace multires {
 
-/// Index of a vertex, face or row. 32 bits: meshes hold at most 2^31-1 corners, checked at the boundary.
-using Index = std::int32_t;
 using Vec3 = Eigen::Vector3d;
 using Positions = Array<Vec3>;      ///< #V by 3, mesh units
 using Face = std::array<Index, 3>;  ///< three indices into the positions

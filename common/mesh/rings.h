@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh/array.h"
+#include "base/array.h"
 #include "mesh/mesh.h"
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 #include "mesh/validation.h"
 
+#include "base/parallel.h"
 #include "mesh/adjacency.h"
-#include "parallel/parallel.h"
 
 #include <algorithm>
 #include <array>

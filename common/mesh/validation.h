@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh/error.h"
+#include "base/error.h"
 #include "mesh/mesh.h"
 #include "mesh/rings.h"
 

@@ -1,6 +1,6 @@
 #include "normals/face_graph.h"
 
-#include "parallel/parallel.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "normals/normal_field.h"
 
-#include "parallel/parallel.h"
+#include "base/parallel.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 #include "normals/normal_field.h"
 
-#include "measure/reduce.h"
-#include "parallel/parallel.h"
+#include "base/parallel.h"
+#include "base/reduce.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 #include "normals/spikes.h"
 
-#include "parallel/parallel.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "operators/relaxation.h"
 
+#include "base/parallel.h"
 #include "operators/kernels.h"
-#include "parallel/parallel.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
-#include "bindings.h"
-#include "returns.h"
+#include "shared/bindings.h"
+#include "shared/returns.h"
 
-#include "filters/adaptive.h"
+#include "filters/layers/adaptive.h"
 
 #include <cmath>
 

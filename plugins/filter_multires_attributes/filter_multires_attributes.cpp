@@ -1,9 +1,9 @@
-#include "attribute_bindings.h"
-#include "returns.h"
+#include "shared/attribute_bindings.h"
+#include "shared/returns.h"
 
-#include "filters/attributes.h"
-#include "filters/attributes_band.h"
-#include "filters/texcoord.h"
+#include "filters/attributes/attributes.h"
+#include "filters/attributes/attributes_band.h"
+#include "filters/attributes/texcoord.h"
 
 // Filters that work on attributes of the surface and leave its shape alone.
 

@@ -1,7 +1,7 @@
-#include "bindings.h"
-#include "returns.h"
+#include "shared/bindings.h"
+#include "shared/returns.h"
 
-#include "filters/band_filters.h"
+#include "filters/shape/band_filters.h"
 
 #include <cstdio>
 

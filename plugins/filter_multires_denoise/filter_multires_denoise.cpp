@@ -1,8 +1,8 @@
-#include "attribute_bindings.h"
-#include "returns.h"
+#include "shared/attribute_bindings.h"
+#include "shared/returns.h"
 
-#include "filters/attributes_denoise.h"
-#include "filters/denoise.h"
+#include "filters/attributes/attributes_denoise.h"
+#include "filters/shape/denoise.h"
 
 // Filters that remove noise and keep shape.
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "table.h"
+#include "shared/table.h"
 
 #if MULTIRES_MESHLAB_API == 2020
 #include <common/interfaces.h>

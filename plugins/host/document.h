@@ -3,7 +3,7 @@
 #include "host/api.h"
 #include "host/kept_pyramid.h"
 
-#include "mesh/vcg_conversion.h"
+#include "vcg/conversion.h"
 
 namespace multires::host {
 

@@ -1,7 +1,7 @@
 // Cost of adaptive reconstruction and of its parts, per vertex of generated scans.
 // MULTIRES_THREADS=1 shows one thread. tests/bench/adaptive_compare.py compares with other programs.
 
-#include "filters/adaptive.h"
+#include "filters/layers/adaptive.h"
 #include "measure/distance.h"
 #include "scans.h"
 

@@ -5,7 +5,7 @@
 #include "operators/relaxation.h"
 #include "shapes.h"
 
-#include "parallel/parallel.h"
+#include "base/parallel.h"
 #include <benchmark/benchmark.h>
 
 namespace {

@@ -1,8 +1,8 @@
 // Cost of a pyramid and its parts per vertex of generated scans.
 // MULTIRES_THREADS=1 shows one thread.
 
-#include "filters/pyramid.h"
 #include "mesh/adjacency.h"
+#include "pyramid/pyramid.h"
 #include "scans.h"
 
 namespace {

@@ -1,6 +1,6 @@
 #include "bytes.h"
 
-#include "mesh/vcg_conversion.h"
+#include "vcg/conversion.h"
 
 #include <cmath>
 

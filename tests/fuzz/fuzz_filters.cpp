@@ -1,7 +1,7 @@
 #include "all_tables.h"
+#include "base/parallel.h"
 #include "bytes.h"
 #include "given.h"
-#include "parallel/parallel.h"
 
 #include "../unit/result_numbers.h"
 

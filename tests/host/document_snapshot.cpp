@@ -1,6 +1,6 @@
 #include "document_snapshot.h"
 
-#include "mesh/vcg_custom.h"
+#include "vcg/custom.h"
 
 #include <algorithm>
 #include <array>

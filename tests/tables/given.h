@@ -1,6 +1,6 @@
 #pragma once
 
-#include "table.h"
+#include "shared/table.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "filters/adaptive.h"
+#include "filters/layers/adaptive.h"
 
 #include "hierarchy_checks.h"
 #include "measure/distance.h"

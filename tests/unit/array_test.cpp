@@ -1,4 +1,4 @@
-#include "mesh/array.h"
+#include "base/array.h"
 
 #include <gtest/gtest.h>
 

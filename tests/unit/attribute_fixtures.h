@@ -1,6 +1,6 @@
 #pragma once
 
-#include "filters/attributes.h"
+#include "filters/attributes/attributes.h"
 
 #include "fixtures.h"
 #include "reported.h"

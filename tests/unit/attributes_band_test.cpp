@@ -1,4 +1,4 @@
-#include "filters/attributes_band.h"
+#include "filters/attributes/attributes_band.h"
 
 #include "fixtures.h"
 #include "measure/measure.h"

@@ -1,4 +1,4 @@
-#include "filters/attributes_denoise.h"
+#include "filters/attributes/attributes_denoise.h"
 
 #include "fixtures.h"
 #include "reported.h"

@@ -1,4 +1,4 @@
-#include "filters/band_filters.h"
+#include "filters/shape/band_filters.h"
 
 #include "filter_fixtures.h"
 #include "measure/measure.h"

@@ -1,4 +1,4 @@
-#include "filters/band.h"
+#include "pyramid/band.h"
 
 #include "filter_fixtures.h"
 

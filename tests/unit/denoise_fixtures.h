@@ -1,6 +1,6 @@
 #pragma once
 
-#include "filters/denoise.h"
+#include "filters/shape/denoise.h"
 #include "measure/distance.h"
 #include "measure/measure.h"
 

@@ -1,4 +1,4 @@
-#include "filters/denoise.h"
+#include "filters/shape/denoise.h"
 
 #include "denoise_fixtures.h"
 

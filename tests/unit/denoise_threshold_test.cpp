@@ -1,4 +1,4 @@
-#include "filters/denoise_threshold.h"
+#include "filters/shape/denoise_threshold.h"
 
 #include "denoise_fixtures.h"
 

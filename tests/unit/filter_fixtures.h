@@ -1,6 +1,6 @@
 #pragma once
 
-#include "filters/band_filters.h"
+#include "filters/shape/band_filters.h"
 
 #include "fixtures.h"
 

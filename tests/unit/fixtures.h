@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/parallel.h"
 #include "mesh/adjacency.h"
-#include "parallel/parallel.h"
 #include "random.h"
 #include "shapes.h"
 

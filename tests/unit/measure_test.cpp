@@ -3,7 +3,7 @@
 #include "random.h"
 #include "shapes.h"
 
-#include "parallel/parallel.h"
+#include "base/parallel.h"
 #include <gtest/gtest.h>
 
 #include <cmath>

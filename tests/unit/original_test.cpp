@@ -1,7 +1,7 @@
 #include "filters/original.h"
 
 #include "filter_fixtures.h"
-#include "filters/denoise.h"
+#include "filters/shape/denoise.h"
 
 namespace multires {
 

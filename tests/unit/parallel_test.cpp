@@ -1,4 +1,4 @@
-#include "parallel/parallel.h"
+#include "base/parallel.h"
 
 #include "fixtures.h"
 

@@ -1,4 +1,4 @@
-#include "filters/pyramid.h"
+#include "filters/layers/levels.h"
 
 #include "filter_fixtures.h"
 #include "measure/measure.h"

@@ -1,6 +1,6 @@
 #include "hierarchy/quadric.h"
 
-#include "mesh/radix_sort.h"
+#include "base/radix_sort.h"
 
 #include "random.h"
 

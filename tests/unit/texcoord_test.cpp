@@ -1,4 +1,4 @@
-#include "filters/texcoord.h"
+#include "filters/attributes/texcoord.h"
 
 #include "fixtures.h"
 #include "measure/measure.h"

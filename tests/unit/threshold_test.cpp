@@ -1,4 +1,4 @@
-#include "transform/threshold.h"
+#include "schemes/threshold.h"
 
 #include "denoise_fixtures.h"
 

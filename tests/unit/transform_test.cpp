@@ -1,4 +1,4 @@
-#include "transform/relaxation_transform.h"
+#include "schemes/burt_adelson.h"
 
 #include "measure/measure.h"
 

@@ -1,5 +1,5 @@
 // Conversion between vcg meshes and flat layers, for plain and optional components, in float and double.
-#include "mesh/vcg_conversion.h"
+#include "vcg/conversion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,8 +1,8 @@
 // Meshes in single and in double precision through the same filters: what a host stores, and when it is rounded.
 #include "all_tables.h"
 #include "given.h"
-#include "mesh/vcg_conversion.h"
 #include "shapes.h"
+#include "vcg/conversion.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,52 @@
+#include "filters/attributes/attributes_band.h"
+
+#include "mesh/validation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+/// The band and the gain that an operation comes down to.
+std::pair<Band, double> band_and_gain(const AttributeBandOptions& o) {
+    Band band = o.band;
+    switch (o.mode) {
+    case BandMode::low_pass:
+        if (!(o.cutoff > 0 && std::isfinite(o.cutoff))) throw InputError("cutoff must be a number, more than 0");
+        band.finest = band.unit == Unit::vertices ? 1e300 : 0;
+        band.coarsest = o.cutoff;
+        return {band, 0};
+    case BandMode::stop_band:
+        return {band, 0};
+    case BandMode::enhance:
+        break;
+    }
+    if (!std::isfinite(o.gain)) throw InputError("gain must be a number");
+    return {band, o.gain};
+}
+
+}  // namespace
+
+Result filter_attribute_bands(const Layer& layer, const AttributeBandOptions& options, Session& session) {
+    require_usable(layer.mesh);  // before a default that could not be derived from the mesh is blamed
+    const auto [band, gain] = band_and_gain(options);
+    const std::vector<Channels> all = vertex_channels(layer, options.what, options.linear_light);
+    Result result;
+    const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
+    const std::vector<double> weights = region_weights(layer, options.region);
+    const std::vector<double> gains = band_gains(*pyramid, band, box_diagonal(layer), gain);
+    const bool changes = std::any_of(gains.begin(), gains.end(), [](double g) { return g != 1; });
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        session.progress.report(0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(all.size()),
+                                "Filtering attributes");
+        const Channels& c = all[i];
+        const auto leave = [](const Coefficients&) {};
+        const Field after = changes ? through_pyramid(*pyramid, c.field, gains, leave) : c.field;
+        result.attributes.push_back(changed_attribute(layer, c, after, weights, result.report));
+    }
+    result.report.add("gains", gains);
+    return result;
+}
+
+}  // namespace multires

@@ -1,0 +1,271 @@
+#include "filters/layers/adaptive.h"
+
+#include "measure/distance.h"
+#include "measure/measure.h"
+#include "mesh/adjacency.h"
+#include "mesh/validation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+namespace multires {
+namespace {
+
+constexpr int attributes = 5;
+struct NamedThreshold {
+    const char* name;
+    DetailThreshold* threshold;
+};
+std::array<NamedThreshold, attributes> thresholds(AdaptiveOptions& o) {
+    return {{{"geometry", &o.geometry},
+             {"color", &o.color},
+             {"quality", &o.quality},
+             {"texcoord", &o.texcoord},
+             {"normal", &o.normal}}};
+}
+
+/// Checks the options; where thresholds only say how attributes compare, a single one is set to 1.
+AdaptiveOptions checked(AdaptiveOptions o) {
+    int used = 0;
+    for (const auto& [name, t] : thresholds(o)) {
+        used += t->use;
+        require(!t->use || t->threshold >= 0, std::string(name) + "_threshold must be a number, 0 or more");
+    }
+    require(used > 0, "use_geometry: at least one kind of detail must be used");
+    if (o.target != Target::threshold)
+        for (const auto& [name, t] : thresholds(o)) {
+            if (used == 1) t->threshold = 1;
+            require(!t->use || (t->threshold > 0 && std::isfinite(t->threshold)),
+                    std::string(name) + "_threshold must be more than 0 when several kinds of detail share a target");
+        }
+    require(o.target != Target::faces || o.faces >= 0, "faces must be 0 or more");
+    require(o.target != Target::vertices || o.vertices >= 0, "vertices must be 0 or more");
+    const bool bound = o.target == Target::rms_distance || o.target == Target::largest_distance;
+    require(!bound || (o.error > 0 && std::isfinite(o.error)), "error must be more than 0");
+    require(std::isfinite(o.band_gain), "band_gain must be a number");
+    require(o.base_vertices >= 4, "base_vertices must be at least 4");
+    require(o.normal_limit > 0 && o.normal_limit <= 180, "normal_limit must be more than 0 and at most 180 degrees");
+    return o;
+}
+
+/// The layer with a band of its details scaled.
+Layer filtered(const Layer& layer, const AdaptiveOptions& o, Session& session) {
+    Report ignored;
+    Layer out = layer;
+    const auto pyramid = pyramid_of(layer, o.band_pyramid, session, ignored);
+    out.mesh.positions = pyramid->synthesise(band_gains(*pyramid, o.band, box_diagonal(layer), o.band_gain));
+    return out;
+}
+
+/// Bit k of face f: the wedges at edge (k, k+1) differ from those of the neighbour across it.
+std::vector<std::uint8_t> seam_edges(const Layer& layer) {
+    struct Side {
+        Index low, high, face;
+        int k;
+    };
+    std::vector<Side> sides;
+    const Faces& faces = layer.mesh.faces;
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(faces[f][k], faces[f][(k + 1) % 3]);
+            sides.push_back({low, high, static_cast<Index>(f), k});
+        }
+    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        return std::tie(a.low, a.high, a.face, a.k) < std::tie(b.low, b.high, b.face, b.k);
+    });
+    const auto wedge = [&](const Side& s, Index vertex) {
+        const Wedge& w = layer.wedges[3 * s.face + (faces[s.face][s.k] == vertex ? s.k : (s.k + 1) % 3)];
+        return std::make_tuple(w.u, w.v, w.texture);
+    };
+    std::vector<std::uint8_t> seam(faces.size(), 0);
+    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+        const Side &a = sides[i], &b = sides[i + 1];
+        if (a.low != b.low || a.high != b.high) continue;
+        if (wedge(a, a.low) == wedge(b, a.low) && wedge(a, a.high) == wedge(b, a.high)) continue;
+        seam[a.face] |= 1 << a.k;
+        seam[b.face] |= 1 << b.k;
+    }
+    return seam;
+}
+
+/// A reconstruction: its places in order of the input, and the mesh over them.
+struct Reconstruction {
+    Index count = 0;
+    DerivedMesh mesh;
+    Positions positions;
+    std::optional<Distance> distance;
+};
+
+/// Makes reconstructions of one layer.
+class Reconstructor {
+public:
+    Reconstructor(const Layer& layer, const AdaptiveOptions& options, const Hierarchy& h, const Insertion& insertion)
+        : layer_(layer), options_(options), h_(h), insertion_(insertion) {}
+
+    Reconstruction make(Index count, bool measure) const {
+        Reconstruction r;
+        r.count = count;
+        const std::vector<std::uint8_t> in = inserted(insertion_, count);
+        LevelMesh mesh = mesh_of_set(h_, layer_.mesh.faces, in);
+        std::vector<Index> place_of(h_.vertices()), index_of(h_.vertices());
+        for (Index p = 0; p < h_.vertices(); ++p) place_of[h_.order[p]] = p;
+        std::vector<std::uint8_t> fixed;
+        for (Index v = 0; v < h_.vertices(); ++v) {
+            const Index p = place_of[v];
+            if (!in[p]) continue;
+            index_of[p] = static_cast<Index>(r.mesh.source_vertex.size());
+            r.mesh.source_vertex.push_back(v);
+            r.positions.push_back(layer_.mesh.positions[v]);
+            fixed.push_back(options_.region_of_interest && std::isinf(insertion_.key[p]) && p >= h_.size.back());
+        }
+        for (Face& f : mesh.faces) f = {index_of[f[0]], index_of[f[1]], index_of[f[2]]};
+        r.mesh.faces = std::move(mesh.faces);
+        r.mesh.source_face = std::move(mesh.source_face);
+        if (options_.fit && count < h_.vertices()) r.positions = fitted(layer_.mesh, r.mesh.faces, r.positions, fixed);
+        if (measure)
+            r.distance = count == h_.vertices()
+                             ? Distance()
+                             : two_sided_distance(layer_.mesh.faces, layer_.mesh.positions, r.mesh.faces, r.positions);
+        return r;
+    }
+
+    /// Faces of the base mesh.
+    int base_faces() const {
+        const auto mesh = mesh_of_set(h_, layer_.mesh.faces, inserted(insertion_, h_.size.back()));
+        return static_cast<int>(mesh.faces.size());
+    }
+
+    /// The largest prefix with at most so many faces, and at least `least` vertices.
+    Index count_for_faces(Index least, int most) const {
+        int faces = base_faces();
+        Index count = h_.size.back();
+        while (count < h_.vertices()) {
+            faces += insertion_.faces[insertion_.order[count]];
+            if (faces > most && count >= least) break;
+            ++count;
+        }
+        return count;
+    }
+
+    /// The fewest vertices found, by bisection, whose distance is within the bound.
+    Reconstruction within(Index least, double bound, const Progress& progress) const {
+        const auto distance = [&](const Reconstruction& r) {
+            return options_.target == Target::rms_distance ? r.distance->rms : r.distance->largest;
+        };
+        double low = least, high = h_.vertices(), next = std::max<double>(least, h_.vertices() / 10.0);
+        std::optional<Reconstruction> best;
+        constexpr int most = 14;
+        for (int i = 0; i < most && low < high; ++i) {
+            progress.report(static_cast<double>(i) / most, "Searching the threshold");
+            Reconstruction r = make(static_cast<Index>(next), true);
+            const double off = distance(r);
+            if (off <= bound) {
+                high = r.count;
+                best = std::move(r);
+            } else {
+                low = r.count + 1;
+            }
+            if (high < 1.005 * low && (best || low >= high)) break;
+            // Distances fall about as the number of vertices grows; else half way in the logarithm.
+            next = off > 0 ? std::floor(next * off / bound * (off <= bound ? 1.01 : 0.99)) : low;
+            if (i > 5 || next <= low * 1.002 || next >= high * 0.998) next = std::floor(std::sqrt(low * high));
+            next = std::clamp(next, low, high);
+            if (next >= high && best) next = std::max(low, high - 1);
+        }
+        return best ? std::move(*best) : make(h_.vertices(), true);
+    }
+
+private:
+    const Layer& layer_;
+    const AdaptiveOptions& options_;
+    const Hierarchy& h_;
+    const Insertion& insertion_;
+};
+
+void report_thresholds(AdaptiveOptions o, double scale, Report& report) {
+    for (const auto& [name, t] : thresholds(o)) {
+        if (!t->use) continue;
+        const bool length = t == &o.geometry;
+        const std::string unit = !length                         ? ""
+                                 : o.unit == LengthUnit::percent ? "percent of the diagonal"
+                                                                 : "mesh units";
+        report.add(std::string(name) + "_threshold_used", t->threshold * scale, unit);
+    }
+}
+
+}  // namespace
+
+Hierarchy adaptive_hierarchy(const Layer& layer, const AdaptiveOptions& options, const Progress& progress) {
+    Rings rings = vertex_rings(layer.mesh);
+    mark_features(rings, layer, options.features, options.feature_angle);
+    if (options.texcoord.use && !layer.wedges.empty()) mark_features(rings, layer.mesh.faces, seam_edges(layer));
+    HierarchyOptions h;
+    h.base_vertices = options.base_vertices;
+    h.normal_limit_degrees = options.normal_limit;
+    h.length_weight = 0;
+    h.set_share = 0.5;
+    h.memoryless = true;
+    h.boundary_weight = boundary_weight;
+    h.flaps = uses_flaps(options.op);
+    return build_hierarchy(std::move(rings), layer.mesh.positions, h,
+                           [&](double f) { progress.report(f, "Building the hierarchy"); });
+}
+
+Result adaptive_reconstruction(const Layer& input, const AdaptiveOptions& given, Session& session) {
+    require_usable(input.mesh);
+    const AdaptiveOptions o = checked(given);
+    const bool filter = o.band_gain != 1;
+    const Layer changed = filter ? filtered(input, o, session) : Layer();
+    const Layer& layer = filter ? changed : input;
+
+    const Hierarchy h = adaptive_hierarchy(layer, o, session.progress.part(filter ? 0.4 : 0, 0.6));
+    session.progress.report(0.6, "Measuring the details");
+    const Insertion insertion = insertion_order(h, importance(layer, h, o));
+    const Reconstructor reconstructor(layer, o, h, insertion);
+    const Index base = h.size.back(), least = insertion.count(std::numeric_limits<double>::infinity());
+    const double unit = o.unit == LengthUnit::percent ? box_diagonal(layer) / 100 : 1;
+    session.progress.report(0.7, "Choosing the vertices");
+    const Reconstruction r = [&] {
+        switch (o.target) {
+        case Target::threshold:
+            return reconstructor.make(insertion.count(1), o.measure);
+        case Target::faces:
+            return reconstructor.make(reconstructor.count_for_faces(least, o.faces), o.measure);
+        case Target::vertices:
+            return reconstructor.make(
+                std::clamp<Index>(std::min(o.vertices, h.vertices()) + h.isolated, least, h.vertices()), o.measure);
+        default:
+            return reconstructor.within(least, o.error * unit, session.progress.part(0.7, 0.98));
+        }
+    }();
+    session.progress.report(0.98, "Making the layer");
+
+    Result result;
+    Report& report = result.report;
+    report.add("faces", static_cast<int>(r.mesh.faces.size()));
+    report.add("vertices", static_cast<int>(r.mesh.source_vertex.size()));
+    report.add("unreferenced_vertices", static_cast<int>(h.isolated));
+    report.add("base_faces", reconstructor.base_faces());
+    report.add("base_vertices", static_cast<int>(base));
+    if (o.target != Target::threshold) {
+        const double last = insertion.key[insertion.order[std::max<Index>(r.count, 1) - 1]];
+        if (std::isfinite(last)) report_thresholds(o, last, report);
+    } else {
+        report_thresholds(o, 1, report);
+    }
+    if (r.distance) {
+        report.add("rms_distance", r.distance->rms, "mesh units");
+        report.add("largest_distance", r.distance->largest, "mesh units");
+        report.add("rms_distance_percent", 100 * r.distance->rms / box_diagonal(layer), "percent of the diagonal");
+        report.add("largest_distance_percent", 100 * r.distance->largest / box_diagonal(layer),
+                   "percent of the diagonal");
+    }
+    result.layer = r.mesh;
+    result.layer->name = "adaptive " + std::to_string(r.mesh.faces.size());
+    if (filter || o.fit) result.layer->positions = r.positions;
+    return result;
+}
+
+}  // namespace multires

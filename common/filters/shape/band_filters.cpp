@@ -1,0 +1,142 @@
+#include "filters/shape/band_filters.h"
+
+#include "measure/measure.h"
+#include "measure/vertex_normals.h"
+#include "mesh/adjacency.h"
+#include "mesh/validation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+void require_finite(double value, const std::string& name) {
+    if (!std::isfinite(value)) throw InputError(name + " must be a number");
+}
+
+/// The story of every band filter: start, pyramid, gains, synthesis, region, report.
+template <class Options, class Gains>
+Result filter_bands(const Layer& layer, const Options& options, Session& session, const Gains& gains_of) {
+    Result result;
+    const std::vector<double> weights = region_weights(layer, options.region);
+    const Start start(layer, options.relative_to, session, result.report);
+    const auto pyramid = pyramid_of(start.layer(), options.pyramid, session, result.report);
+    const std::vector<double> gains = gains_of(start.layer(), *pyramid);
+    session.progress.report(0.9, "Putting the levels together");
+    const bool unchanged = std::all_of(gains.begin(), gains.end(), [](double g) { return g == 1; });
+    Positions after = unchanged ? start.layer().mesh.positions : pyramid->synthesise(gains);
+    blend(layer.mesh.positions, weights, after);
+    session.progress.report(0.97, "Measuring the change");
+    result.report.add("gains", gains);
+    report_change(layer, after, result.report);
+    result.positions = std::move(after);
+    return result;
+}
+
+}  // namespace
+
+Result low_pass(const Layer& layer, const LowPassOptions& options, Session& session) {
+    require_usable(layer.mesh);  // before a default that could not be derived from the mesh is blamed
+    Band band;
+    band.unit = options.unit;
+    band.softness = options.softness;
+    require_finite(options.cutoff, "cutoff");
+    if (!(options.cutoff > 0)) throw InputError("cutoff must be more than 0");
+    const bool vertices = options.unit == Unit::vertices;
+    band.finest = vertices ? 1e300 : 0;
+    band.coarsest = options.cutoff;
+    return filter_bands(layer, options, session, [&](const Layer& start, const KeptPyramid& pyramid) {
+        return band_gains(pyramid, band, box_diagonal(start), 0);
+    });
+}
+
+Result scale_band(const Layer& layer, const BandOptions& options, Session& session) {
+    require_finite(options.gain, "gain");
+    return filter_bands(layer, options, session, [&](const Layer& start, const KeptPyramid& pyramid) {
+        return band_gains(pyramid, options.band, box_diagonal(start), options.gain);
+    });
+}
+
+std::array<double, equalizer_bands + 1> equalizer_limits(const Layer& layer, const PyramidOptions& options) {
+    const double finest = 2 * mean_edge_length(layer.mesh.faces, layer.mesh.positions);
+    const double vertices = static_cast<double>(layer.mesh.positions.size());
+    const double ratio = std::sqrt(std::max(2.0, vertices / options.base_vertices));
+    std::array<double, equalizer_bands + 1> limit{};
+    for (int i = 0; i <= equalizer_bands; ++i)
+        limit[i] = finest * std::pow(ratio, static_cast<double>(i) / equalizer_bands);
+    return limit;
+}
+
+Result equalizer(const Layer& layer, const EqualizerOptions& options, Session& session) {
+    for (int i = 0; i < equalizer_bands; ++i) require_finite(options.gain[i], "gain_" + std::to_string(i + 1));
+    return filter_bands(layer, options, session, [&](const Layer& start, const KeptPyramid& pyramid) {
+        const auto limit = equalizer_limits(start, options.pyramid);
+        std::vector<double> gains(pyramid.levels().size() - 1, 1);
+        for (int i = 0; i < equalizer_bands; ++i) {
+            if (options.gain[i] == 1) continue;
+            Band band;
+            band.softness = options.softness;
+            band.finest = i == 0 ? 0 : limit[i];
+            band.coarsest = i == equalizer_bands - 1 ? 1e300 : limit[i + 1];
+            const std::vector<double> share = band_share(pyramid, band, 0);
+            for (std::size_t k = 0; k < gains.size(); ++k) gains[k] += share[k] * (options.gain[i] - 1);
+        }
+        return gains;
+    });
+}
+
+Result detail_quality(const Layer& layer, const DetailOptions& options, Session& session) {
+    Result result;
+    const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
+    const std::vector<double> gains = band_gains(*pyramid, options.band, box_diagonal(layer), 0);
+    session.progress.report(0.9, "Measuring the details");
+    const Positions without = pyramid->synthesise(gains);
+    const Array<Vec3> normal =
+        options.signed_normal ? vertex_normals(layer.mesh.faces, layer.mesh.positions) : Array<Vec3>();
+    std::vector<double> detail(without.size());
+    for (std::size_t i = 0; i < detail.size(); ++i) {
+        const Vec3 d = layer.mesh.positions[i] - without[i];
+        detail[i] = options.signed_normal ? normal[i].dot(d) : d.norm();
+    }
+    const auto [least, most] = std::minmax_element(detail.begin(), detail.end());
+    result.report.add("gains", gains);
+    result.report.add("least_detail", *least, "mesh units");
+    result.report.add("largest_detail", *most, "mesh units");
+    result.report.add("rms_detail", rms(detail), "mesh units");
+    result.quality = std::move(detail);
+    return result;
+}
+
+Result unsharp(const Layer& layer, const UnsharpOptions& options, Session& session) {
+    Result result;
+    const Start start(layer, options.relative_to, session, result.report);
+    const Mesh& mesh = start.layer().mesh;
+    require_usable(mesh);
+    require_finite(options.xi, "xi");
+    require(options.iterations >= 1, "iterations must be at least 1");
+    const std::vector<double> weights = region_weights(layer, options.region);
+    session.progress.report(0, "Computing weights");
+    Rings rings = vertex_rings(mesh);
+    mark_features(rings, start.layer(), options.features, options.feature_angle);
+    if (uses_flaps(options.op)) find_flaps(rings);
+    RelaxationOptions relaxation_options;
+    relaxation_options.op = options.op;
+    const RingWeights rows = ring_weights(rings, mesh.positions, relaxation_options);
+    Positions smooth = mesh.positions, next = smooth;
+    for (int i = 0; i < options.iterations; ++i) {
+        session.progress.report(0.2 + 0.7 * i / options.iterations, "Relaxing");
+        relax(rings, rows, smooth, next);
+        smooth.swap(next);
+    }
+    session.progress.report(0.9, "Measuring the change");
+    Positions after = mesh.positions;
+    if (options.xi != 1)
+        for (std::size_t i = 0; i < after.size(); ++i) after[i] = smooth[i] + options.xi * (after[i] - smooth[i]);
+    blend(layer.mesh.positions, weights, after);
+    report_change(layer, after, result.report);
+    result.positions = std::move(after);
+    return result;
+}
+
+}  // namespace multires

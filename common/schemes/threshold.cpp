@@ -1,0 +1,48 @@
+#include "schemes/threshold.h"
+
+#include <cstdint>
+#include <utility>
+
+namespace multires {
+namespace {
+
+/// Root mean square of all components.
+double rms(const Field& f) {
+    double sum = 0;
+    for (const double v : f.values) sum += v * v;
+    return f.values.empty() ? 0 : std::sqrt(sum / static_cast<double>(f.values.size()));
+}
+
+/// A standard normal number from an index: sum of twelve uniform ones (splitmix64), good to three deviations.
+double normal_number(std::uint64_t index) {
+    double sum = -6;
+    for (std::uint64_t k = 0; k < 12; ++k) {
+        std::uint64_t z = (index * 12 + k + 1) * 0x9e3779b97f4a7c15u;
+        z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+        z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+        sum += static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-53;
+    }
+    return sum;
+}
+
+}  // namespace
+
+std::vector<NoiseGain> noise_gains(const Hierarchy& hierarchy, const Transform& transform) {
+    Field noise(hierarchy.vertices(), 1);
+    noise.has_positions = false;
+    for (Index i = 0; i < noise.rows(); ++i) noise.values[i] = normal_number(static_cast<std::uint64_t>(i));
+    const Coefficients c = transform.analyse(std::move(noise));
+    std::vector<NoiseGain> gains;
+    for (const Coefficients::Detail& d : c.detail) gains.push_back({rms(d.odd), rms(d.even)});
+    return gains;
+}
+
+double deviation_by_median(std::vector<double>& values) {
+    if (values.empty()) return 0;
+    for (double& v : values) v = std::abs(v);
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle / 0.6745;
+}
+
+}  // namespace multires
