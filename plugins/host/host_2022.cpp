@@ -4,6 +4,8 @@
 
 #include <QAction>
 
+#include <iostream>
+
 namespace multires::host {
 namespace {
 
@@ -25,7 +27,7 @@ std::map<std::string, QVariant> values(const Report& report) {
 
 }  // namespace
 
-Host::Host(const plugin::Plugin& table) : table_(table) {
+Host::Host(const plugin::Plugin& table) : table_(table), output_(std::cout.rdbuf()), errors_(std::cerr.rdbuf()) {
     for (std::size_t id = 0; id < table.filters.size(); ++id) {
         typeList.push_back(static_cast<ActionIDType>(id));
         actionList.push_back(new QAction(QString::fromStdString(table.filters[id].name), this));
@@ -46,6 +48,7 @@ int Host::getPreConditions(const QAction* action) const { return precondition(ro
 int Host::postCondition(const QAction* action) const { return postcondition(row(table_, action)); }
 
 RichParameterList Host::initParameterList(const QAction* action, const MeshDocument& document) {
+    output_ = std::cout.rdbuf(), errors_ = std::cerr.rdbuf();
     return parameters(row(table_, action), document);
 }
 
@@ -67,7 +70,17 @@ std::map<std::string, QVariant> Host::applyFilter(const QAction* action, const R
     } catch (...) {
         message = describe_exception();
     }
+    end_as_pymeshlab_should();
     throw MLException(QString::fromStdString(message));
+}
+
+/// Before a filter runs, pymeshlab 2025.7 gives it the document's log and sends C++'s streams elsewhere, to what
+/// belongs to the document. It takes both back only if the filter succeeds, so that a failure leaves pointers to a
+/// document that may be gone. MeshLab itself sets the log before each call and leaves the streams alone.
+void Host::end_as_pymeshlab_should() {
+    setLog(nullptr);
+    std::cout.rdbuf(output_);
+    std::cerr.rdbuf(errors_);
 }
 
 }  // namespace multires::host

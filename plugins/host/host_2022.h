@@ -4,6 +4,8 @@
 
 #include <QObject>
 
+#include <streambuf>
+
 /// The plugin class of MeshLab 2022.02 and later: a table of filters seen through FilterPlugin. host_2020.h is its
 /// twin.
 namespace multires::host {
@@ -27,7 +29,11 @@ public:
                                                 vcg::CallBackPos* callback) override;
 
 private:
+    void end_as_pymeshlab_should();
+
     const plugin::Plugin& table_;
+    std::streambuf* output_;  ///< of std::cout and std::cerr, before the host runs a filter
+    std::streambuf* errors_;
 };
 
 }  // namespace multires::host
