@@ -1,8 +1,10 @@
 """What the host tests share: where things were built, the tables of all filters, and meshes of every class."""
 
+import html
 import json
 import os
 import pathlib
+import re
 import subprocess
 
 import pytest
@@ -22,6 +24,13 @@ def meshes(tmp_path_factory):
     folder = tmp_path_factory.mktemp("meshes")
     subprocess.run([BUILD / "meshes/make_meshes", folder], check=True)
     return folder
+
+
+def citations(info):
+    """(authors, title, where) of every paper that a filter's info cites; there is one at least."""
+    cited = re.findall(r'<i>([^<]+)</i>,\s*<b>"([^"]+)"</b>,\s*([^<]+)', html.unescape(info))
+    assert len(cited) == info.count("<b>") > 0, info
+    return cited
 
 
 def load_plugins():

@@ -1,7 +1,9 @@
 """The Python package: its wheel, its functions beside the filters they call, its types, and a fresh environment."""
 
+import dataclasses
 import inspect
 import os
+import re
 import subprocess
 import sys
 import textwrap
@@ -10,7 +12,7 @@ import zipfile
 import numpy as np
 import pymeshlab
 import pytest
-from conftest import BUILD, FILTER_IDS, FILTERS
+from conftest import BUILD, FILTER_IDS, FILTERS, citations
 
 ROOT = BUILD.parents[1]
 sys.path.insert(0, str(ROOT / "tools"))
@@ -38,12 +40,8 @@ def multires(wheel, tmp_path_factory):
     return pymeshlab_multires
 
 
-_documents = []  # after a filter failed, pymeshlab goes on logging to the document, also when that is gone
-
-
 def document(meshes, name="terrain"):
-    _documents.append(pymeshlab.MeshSet(verbose=False))
-    ms = _documents[-1]
+    ms = pymeshlab.MeshSet(verbose=False)
     ms.load_new_mesh(str(meshes / f"{name}.ply"))
     ms.current_mesh().add_vertex_custom_scalar_attribute(ms.current_mesh().vertex_matrix()[:, 2], "height")
     return ms
@@ -68,16 +66,51 @@ def test_a_function_does_what_its_filter_does_by_default(multires, meshes, row):
 @pytest.mark.parametrize("row", FILTERS, ids=FILTER_IDS)
 def test_a_function_has_every_parameter_and_tells_what_it_means(multires, row):
     function = getattr(multires, generate.function_name(row))
-    parameters = inspect.signature(function).parameters
-    assert list(parameters) == ["ms", *(p["name"] for p in row["parameters"])]
+    parameters = list(inspect.signature(function).parameters)
+    of_pyramid = [field.name for field in dataclasses.fields(multires.Pyramid)]
+    assert parameters[0] == "ms"
+    every = [p for name in parameters[1:] for p in (of_pyramid if name == "pyramid" else [name])]
+    assert sorted(every) == sorted(p["name"] for p in row["parameters"])
     for name in parameters:
-        assert f"        {name}: " in function.__doc__
+        assert re.search(rf"^        (\w+, )*{name}(, \w+)*: \S", function.__doc__, re.MULTILINE), name
     assert row["python_name"] in function.__doc__
+
+
+@pytest.mark.parametrize("row", FILTERS, ids=FILTER_IDS)
+def test_a_function_cites_every_paper_whole(multires, row):
+    said = " ".join(getattr(multires, generate.function_name(row)).__doc__.split("See:")[1].split())
+    assert said == " ".join(f'{authors}, "{title}", {where}' for authors, title, where in citations(row["info"]))
+
+
+def test_a_pyramid_comes_through_and_is_reused_by_an_equal_one(multires, meshes):
+    ms, other = document(meshes), document(meshes)
+    pyramid = multires.Pyramid(scheme="Roy", sets_per_level=1, presmooth=0)
+    report = multires.enhance(ms, gain=3, pyramid=pyramid)
+    other.apply_filter("apply_coord_multires_enhance", gain=3, scheme="Roy", sets_per_level=1, presmooth=0)
+    np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), other.current_mesh().vertex_matrix())
+    assert not report.pyramid_reused
+    same = multires.Pyramid(scheme="Roy", sets_per_level=1, presmooth=0)
+    assert same == pyramid and hash(same) == hash(pyramid) and same != multires.Pyramid()
+    multires.build_pyramid(ms, pyramid=same)
+    assert multires.enhance(ms, gain=1, pyramid=pyramid).pyramid_reused
+    with pytest.raises(dataclasses.FrozenInstanceError, match="scheme"):
+        pyramid.scheme = "Guskov"
+
+
+def test_pyramid_parameters_as_keywords_work_with_a_warning(multires, meshes):
+    ms, other = document(meshes), document(meshes)
+    with pytest.warns(DeprecationWarning, match=r"low_pass\(\.\.\., pyramid=Pyramid\(scheme='Roy'\)\)"):
+        multires.low_pass(ms, cutoff=0.3, scheme="Roy")
+    multires.low_pass(other, cutoff=0.3, pyramid=multires.Pyramid(scheme="Roy"))
+    np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), other.current_mesh().vertex_matrix())
+    with pytest.raises(TypeError, match="unexpected keyword argument 'colour'"):
+        multires.low_pass(ms, colour=1)
 
 
 def test_parameters_come_through(multires, meshes):
     ms, other = document(meshes), document(meshes)
-    report = multires.low_pass(ms, cutoff=0.3, softness=1, operator="cotangent clamped")
+    clamped = multires.Pyramid(operator="cotangent clamped")
+    report = multires.low_pass(ms, cutoff=0.3, softness=1, pyramid=clamped)
     other.apply_filter("apply_coord_multires_low_pass", cutoff=0.3, softness=1, operator="cotangent clamped")
     np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), other.current_mesh().vertex_matrix())
     assert report.rms_displacement > 0 and report.gains[0] == 0 < report.gains[-1]
@@ -109,19 +142,84 @@ def test_open_ranges_hold_everything_finer_or_coarser(multires, meshes):
     assert gains[0] == 1 and gains[-1] == pytest.approx(0.5)
 
 
-@pytest.mark.parametrize("gains", [{"1": 2}, {"2-1": 2}, {"a-b": 2}, {"1-1": 1}, {"1--2": 1}, {"nan-2": 1}, {"1-3": 1, "2-4": 1}, {"1-": 2, "5-6": 1},
-                                   {"1-2": -1}, {"1-2": 9}, {"1-2": float("nan")}])  # fmt: skip
-def test_wrong_ranges_and_gains_change_nothing(multires, meshes, gains):
+NO_RANGE, GAIN = "is no range of wavelengths", "must be 0 to 10"
+
+
+@pytest.mark.parametrize("gains, message", [
+    *[({band: 2}, NO_RANGE) for band in ("1", "2-1", "a-b", "1-1", "1--2", "nan-2", "1-inf", "1-1e39", "1-1.00000001")],
+    ({"1-3": 1, "2-4": 1}, '"1-3" and "2-4" overlap'), ({"1-": 2, "5-6": 1}, '"1-" and "5-6" overlap'),
+    *[({"1-2": gain}, f'the gain of "1-2" is {gain}; it {GAIN}') for gain in (-1, 10.001, float("nan"))],
+])  # fmt: skip
+def test_equalize_with_a_wrong_range_or_gain_changes_nothing(multires, meshes, gains, message):
     ms = document(meshes)
     before = ms.current_mesh().vertex_matrix()
-    with pytest.raises(ValueError):
+    with pytest.raises(ValueError, match=re.escape(message)):
         multires.equalize(ms, {"0.001-0.002": 2, **gains})
+    with pytest.raises(ValueError, match="softness is -1; it must be 0 to 10"):
+        multires.equalize(ms, {"0.001-0.002": 2}, softness=-1)
     np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), before)
+
+
+def test_equalize_takes_every_gain_that_enhance_takes(multires, meshes):
+    ms, other = document(meshes), document(meshes)
+    gain = next(p for r in FILTERS for p in r["parameters"] if (r["python_name"], p["name"]) == ("apply_coord_multires_enhance", "gain"))
+    multires.equalize(ms, {"0.1-0.4": gain["most"]})
+    other.apply_filter("apply_coord_multires_enhance", gain=gain["most"], finest=0.1, coarsest=0.4)
+    np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), other.current_mesh().vertex_matrix())
 
 
 def test_an_error_of_the_filter_is_pymeshlabs(multires, meshes):
     with pytest.raises(pymeshlab.PyMeshLabException, match="softness"):
         multires.low_pass(document(meshes), softness=-1)
+
+
+AFTER_AN_ERROR = """
+import sys
+sys.path.insert(0, {package!r})
+import pymeshlab
+import pymeshlab_multires as multires
+
+ms = pymeshlab.MeshSet(verbose={verbose})
+ms.load_new_mesh({folder!r} + "/mesh.ply")
+for wrong in (lambda: multires.low_pass(ms, softness=-1), lambda: multires.denoise(ms, threshold=-1)):
+    try:
+        wrong()
+        sys.exit("no error")
+    except pymeshlab.PyMeshLabException:
+        pass
+del ms, wrong
+for _ in range(100):
+    for kind in ("off", "ply", "obj", "stl"):
+        ms = pymeshlab.MeshSet(verbose=False)
+        ms.load_new_mesh({folder!r} + "/mesh." + kind)
+        assert ms.current_mesh().face_number() == {faces}
+assert multires.low_pass(ms).rms_displacement > 0
+ms.print_status()  # C++'s standard output is as it was
+"""
+
+
+@pytest.mark.parametrize("verbose", [False, True])
+def test_after_an_error_and_with_its_document_gone_files_load(multires, meshes, tmp_path, verbose):
+    """pymeshlab goes on logging to the document of a filter that failed: loading crashed."""
+    ms = document(meshes)
+    for kind in ("off", "ply", "obj", "stl"):
+        ms.save_current_mesh(str(tmp_path / f"mesh.{kind}"))
+    script = AFTER_AN_ERROR.format(package=os.path.dirname(os.path.dirname(multires.__file__)), folder=str(tmp_path),
+                                   verbose=verbose, faces=ms.current_mesh().face_number())  # fmt: skip
+    done = subprocess.run([sys.executable, "-c", script], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    assert done.returncode == 0, done.stdout
+    assert "Mesh label: mesh.stl" in done.stdout
+
+
+def test_an_error_leaves_the_document_and_its_script_alone(multires, meshes, tmp_path):
+    ms = document(meshes)
+    before = ms.current_mesh().vertex_matrix()
+    with pytest.raises(pymeshlab.PyMeshLabException, match="softness"):
+        multires.low_pass(ms, softness=-1)
+    assert ms.mesh_number() == 1 and ms.current_mesh_id() == 0
+    np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), before)
+    ms.save_filter_script(str(tmp_path / "script.mlx"))
+    assert "<filter" not in (tmp_path / "script.mlx").read_text()
 
 
 def test_the_plot_shows_the_spectrum(multires, meshes):
@@ -153,13 +251,14 @@ def test_types_are_strict(multires, tmp_path):
         import pymeshlab_multires as m
         def use(ms: m._call.MeshSet) -> float:
             m.equalize(ms, {"1-2": 2.0})
-            return m.denoise(ms, method="soft threshold").noise
+            return m.denoise(ms, method="soft threshold", pyramid=m.Pyramid(scheme="Roy")).noise
         def misuse(ms: m._call.MeshSet) -> str:
+            m.low_pass(ms, pyramid=m.Pyramid(scheme="Rio"))
             return m.denoise(ms, method="softish").noise
     """)
     )
     done = mypy(str(user), MYPYPATH=os.path.dirname(os.path.dirname(multires.__file__)))
-    assert done.stdout.count("error:") == 2 and "softish" in done.stdout and '"float"' in done.stdout, done.stdout
+    assert done.stdout.count("error:") == 3 and "softish" in done.stdout and "Rio" in done.stdout and '"float"' in done.stdout, done.stdout
 
 
 def test_the_wheel_works_in_a_fresh_environment(wheel, meshes, tmp_path):

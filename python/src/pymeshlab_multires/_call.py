@@ -1,13 +1,18 @@
 """Loading the plugins, and calling a filter."""
 
 import dataclasses
+import functools
 import pathlib
-from typing import Any, Protocol, TypeAlias, TypeVar
+import warnings
+from collections.abc import Callable
+from typing import Any, ParamSpec, Protocol, TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
 
 Array: TypeAlias = npt.NDArray[np.float64]
+Vector: TypeAlias = tuple[float, float, float]
+Parameters = ParamSpec("Parameters")
 Report = TypeVar("Report")
 
 
@@ -35,12 +40,52 @@ def load_plugins() -> None:
                 raise
 
 
-def apply(kind: type[Report], ms: MeshSet, name: str, parameters: dict[str, Any]) -> Report:
+def forget_failed_document() -> None:
+    """Makes pymeshlab forget the document on which a filter failed.
+
+    pymeshlab 2025.7 keeps a pointer to the log of the document a filter runs on, and clears it only if the filter
+    succeeds. The progress of every later load is written to that log, also when the document is gone, which ends the
+    process. A filter that succeeds on any other document clears the pointer; the user's document stays as it is.
+    """
+    import pymeshlab
+
+    pymeshlab.MeshSet().create_cube()
+
+
+def also_flat(options: type[Any]) -> Callable[[Callable[Parameters, Report]], Callable[Parameters, Report]]:
+    """Lets a function that takes `pyramid`, a dataclass `options`, take its fields as keywords as well, with a
+    DeprecationWarning. Type checkers see the function as it is written."""
+    names = {field.name for field in dataclasses.fields(options)}
+
+    def decorate(function: Callable[Parameters, Report]) -> Callable[Parameters, Report]:
+        @functools.wraps(function)
+        def called(*args: Parameters.args, **keywords: Parameters.kwargs) -> Report:
+            flat = {name: keywords.pop(name) for name in names & keywords.keys()}
+            if flat:
+                written = ", ".join(f"{name}={value!r}" for name, value in flat.items())
+                warnings.warn(f"write {function.__name__}(..., pyramid={options.__name__}({written}))",
+                              DeprecationWarning, stacklevel=2)  # fmt: skip
+                keywords["pyramid"] = dataclasses.replace(keywords.get("pyramid") or options(), **flat)  # type: ignore[type-var]
+            return function(*args, **keywords)
+
+        return called
+
+    return decorate
+
+
+def apply(kind: type[Report], name: str, ms: MeshSet, pyramid: Any = None, **parameters: Any) -> Report:
     """Applies the filter with the parameters that are not None; its report as the dataclass `kind`.
 
     A field that is a dictionary gets what has its name behind that of an attribute: color_noise is noise["color"].
     """
-    returned = dict(ms.apply_filter(name, **{key: value for key, value in parameters.items() if value is not None}))
+    parameters |= dataclasses.asdict(pyramid) if pyramid is not None else {}
+    given = {key: np.array(value) if isinstance(value, tuple) else value
+             for key, value in parameters.items() if value is not None}  # fmt: skip
+    try:
+        returned = dict(ms.apply_filter(name, **given))
+    except BaseException:
+        forget_failed_document()
+        raise
     fields = {field.name: field for field in dataclasses.fields(kind)}  # type: ignore[arg-type]
     by_attribute = [n for n, field in fields.items() if field.default_factory is not dataclasses.MISSING]
     values: dict[str, Any] = {n: {} for n in by_attribute}

@@ -3,55 +3,22 @@
 import dataclasses
 from typing import Literal, TypeAlias
 
-from ._call import Array, MeshSet, apply
+from ._call import Array, MeshSet, also_flat, apply
 
 __all__ = [
-    "AdaptiveReconstructionReport",
-    "BuildPyramidReport",
-    "DenoiseAttributesReport",
-    "DenoiseReport",
-    "DetailToQualityReport",
-    "EnhanceReport",
-    "EqualizerReport",
-    "Features",
-    "FilterAttributesReport",
-    "FilterCustomAttributesReport",
-    "GenerateTexcoordReport",
-    "Grouping",
-    "LevelAsLayerReport",
-    "LowPassReport",
-    "Mode",
-    "Operator",
-    "RelativeTo",
-    "RelaxAttributesReport",
-    "Scheme",
-    "StopBandReport",
-    "Storage",
-    "UnsharpReport",
-    "adaptive_reconstruction",
-    "build_pyramid",
-    "denoise",
-    "denoise_attributes",
-    "detail_to_quality",
-    "enhance",
-    "equalizer",
-    "filter_attributes",
-    "filter_custom_attributes",
-    "generate_texcoord",
-    "level_as_layer",
-    "low_pass",
-    "relax_attributes",
-    "stop_band",
+    "AdaptiveReconstructionReport", "AttributeChanges", "BuildPyramidReport", "DenoiseAttributesReport",
+    "DenoiseReport", "DetailToQualityReport", "EnhanceReport", "EqualizerReport", "Features", "FilterAttributesReport",
+    "FilterCustomAttributesReport", "GenerateTexcoordReport", "Grouping", "LIMITS", "LevelAsLayerReport",
+    "LowPassReport", "Mode", "Movement", "Operator", "Pyramid", "PyramidUse", "RelativeTo", "RelaxAttributesReport",
+    "Result", "Scheme", "StopBandReport", "Storage", "UnsharpReport", "adaptive_reconstruction", "build_pyramid",
+    "denoise", "denoise_attributes", "detail_to_quality", "enhance", "equalizer", "filter_attributes",
+    "filter_custom_attributes", "generate_texcoord", "level_as_layer", "low_pass", "relax_attributes", "stop_band",
     "unsharp",
 ]
 
 Scheme: TypeAlias = Literal["Roy", "Guskov"]
 Operator: TypeAlias = Literal[
-    "umbrella",
-    "cotangent",
-    "cotangent clamped",
-    "cotangent Delaunay",
-    "second difference",
+    "umbrella", "cotangent", "cotangent clamped", "cotangent Delaunay", "second difference",
     "second difference with flaps",
 ]
 Grouping: TypeAlias = Literal["independent sets", "sequential"]
@@ -61,8 +28,102 @@ RelativeTo: TypeAlias = Literal["current shape", "original"]
 Mode: TypeAlias = Literal["low pass", "stop band", "enhance"]
 
 
+@dataclasses.dataclass(frozen=True, kw_only=True)
+class Pyramid:
+    """How a pyramid is built. What is None is the filter's own default; the one named here is that of most filters.
+    A pyramid is kept with its mesh and reused by calls with an equal Pyramid."""
+
+    scheme: Scheme | None = None
+    """Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine structure follows when
+    coarse structure is changed. Default: Guskov."""
+    operator: Operator | None = None
+    """Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape best;
+    cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift. Default: second
+    difference with flaps."""
+    presmooth: float | None = None
+    """Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine noise out of coarse
+    levels; 0 is what the papers do. A number, 0 to 1. Default: 0.5."""
+    grouping: Grouping | None = None
+    """Independent sets: each level removes about a quarter of the vertices, none of them neighbours (Roy).
+    Sequential: one vertex after the other, cheapest first (Guskov). Default: independent sets."""
+    storage: Storage | None = None
+    """How the pyramid keeps weights and details. Float takes half the memory, for meshes of many millions of
+    vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15. Default: double."""
+    sets_per_level: int | None = None
+    """Independent sets only: how many sets, a quarter of the vertices each, a level removes. 2 separates bands best;
+    1 sees most of the noise. A whole number, 1 to 100. Default: 2."""
+    level_ratio: float | None = None
+    """Sequential only: share of its vertices that a level keeps, for example 0.8; 0 makes every vertex a level of
+    its own. A number, 0 to 0.99. Default: 0."""
+    base_vertices: int | None = None
+    """Vertices at which the pyramid stops. A whole number, at least 4. Default: 100."""
+    length_weight: float | None = None
+    """Weight of edge length against the quadric error when vertices are chosen: 0 keeps vertices where the surface
+    bends, 1 keeps them evenly spaced. A number, 0 to 1000. Default: 0.1."""
+    normal_limit: float | None = None
+    """Degrees by which removing a vertex may turn a face at most. A number, 1 to 180. Default: 60."""
+    features: Features | None = None
+    """Edges that are not smoothed across: none; those where the normals of the two faces differ by more than the
+    feature angle; those not marked as faux; those selected on their faces. Default: none."""
+    feature_angle: float | None = None
+    """Degrees between the normals of two faces above which their edge is sharp. A number, 0.01 to 179.99. Default:
+    40."""
+
+
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class BuildPyramidReport:
+class Movement:
+    """How far a filter moved vertices, and what that did to the shape."""
+
+    largest_displacement: float
+    """The longest way a vertex moved (mesh units)."""
+    rms_displacement: float
+    """Root of the mean square of the ways of all vertices (mesh units)."""
+    volume_before: float
+    """Enclosed volume of the input; of no use if the mesh is open (cubic mesh units)."""
+    volume_after: float
+    """The same of the result (cubic mesh units)."""
+    area_before: float
+    """Surface area of the input (square mesh units)."""
+    area_after: float
+    """Surface area of the result (square mesh units)."""
+    centroid_shift: float
+    """How far the centroid of the surface moved (mesh units)."""
+    flipped_faces: int
+    """Faces whose normal turned by more than 90 degrees."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class PyramidUse:
+    """The pyramid that a filter used."""
+
+    pyramid_reused: bool
+    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
+    locked_vertices: int
+    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
+    unreferenced_vertices: int
+    """Vertices without a face, which stay where they are."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class AttributeChanges:
+    """How far a filter changed attributes."""
+
+    largest_change: dict[str, float] = dataclasses.field(default_factory=dict)
+    """The largest change of a vertex's value; of colours 0 to 255 (units of the attribute). By attribute."""
+    rms_change: dict[str, float] = dataclasses.field(default_factory=dict)
+    """Root of the mean square of the changes (units of the attribute). By attribute."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class Result:
+    """What a filter that changes something returns."""
+
+    result_hash: float
+    """Hash of all that was computed: the same if, and in practice only if, the result is."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class BuildPyramidReport(PyramidUse):
     """What build_pyramid() returns."""
 
     levels: int
@@ -95,16 +156,10 @@ class BuildPyramidReport:
     """Edges whose two faces are turned differently."""
     components: int
     """Parts that share no edge."""
-    pyramid_reused: bool
-    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
-    locked_vertices: int
-    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
-    unreferenced_vertices: int
-    """Vertices without a face, which stay where they are."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class LevelAsLayerReport:
+class LevelAsLayerReport(PyramidUse, Result):
     """What level_as_layer() returns."""
 
     level: int
@@ -115,18 +170,10 @@ class LevelAsLayerReport:
     """Its faces."""
     wavelength: float
     """Twice its mean edge length (mesh units)."""
-    pyramid_reused: bool
-    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
-    locked_vertices: int
-    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
-    unreferenced_vertices: int
-    """Vertices without a face, which stay where they are."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class DetailToQualityReport:
+class DetailToQualityReport(PyramidUse, Result):
     """What detail_to_quality() returns."""
 
     least_detail: float
@@ -137,170 +184,48 @@ class DetailToQualityReport:
     """Root of their mean square (mesh units)."""
     gains: Array
     """The factor of each level's details, finest first."""
-    pyramid_reused: bool
-    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
-    locked_vertices: int
-    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
-    unreferenced_vertices: int
-    """Vertices without a face, which stay where they are."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class LowPassReport:
+class LowPassReport(Movement, PyramidUse, Result):
     """What low_pass() returns."""
 
     gains: Array
     """The factor of each level's details, finest first."""
-    largest_displacement: float
-    """The longest way a vertex moved (mesh units)."""
-    rms_displacement: float
-    """Root of the mean square of the ways of all vertices (mesh units)."""
-    volume_before: float
-    """Enclosed volume of the input; of no use if the mesh is open (cubic mesh units)."""
-    volume_after: float
-    """The same of the result (cubic mesh units)."""
-    area_before: float
-    """Surface area of the input (square mesh units)."""
-    area_after: float
-    """Surface area of the result (square mesh units)."""
-    centroid_shift: float
-    """How far the centroid of the surface moved (mesh units)."""
-    flipped_faces: int
-    """Faces whose normal turned by more than 90 degrees."""
-    pyramid_reused: bool
-    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
-    locked_vertices: int
-    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
-    unreferenced_vertices: int
-    """Vertices without a face, which stay where they are."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class StopBandReport:
+class StopBandReport(Movement, PyramidUse, Result):
     """What stop_band() returns."""
 
     gains: Array
     """The factor of each level's details, finest first."""
-    largest_displacement: float
-    """The longest way a vertex moved (mesh units)."""
-    rms_displacement: float
-    """Root of the mean square of the ways of all vertices (mesh units)."""
-    volume_before: float
-    """Enclosed volume of the input; of no use if the mesh is open (cubic mesh units)."""
-    volume_after: float
-    """The same of the result (cubic mesh units)."""
-    area_before: float
-    """Surface area of the input (square mesh units)."""
-    area_after: float
-    """Surface area of the result (square mesh units)."""
-    centroid_shift: float
-    """How far the centroid of the surface moved (mesh units)."""
-    flipped_faces: int
-    """Faces whose normal turned by more than 90 degrees."""
-    pyramid_reused: bool
-    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
-    locked_vertices: int
-    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
-    unreferenced_vertices: int
-    """Vertices without a face, which stay where they are."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class EnhanceReport:
+class EnhanceReport(Movement, PyramidUse, Result):
     """What enhance() returns."""
 
     gains: Array
     """The factor of each level's details, finest first."""
-    largest_displacement: float
-    """The longest way a vertex moved (mesh units)."""
-    rms_displacement: float
-    """Root of the mean square of the ways of all vertices (mesh units)."""
-    volume_before: float
-    """Enclosed volume of the input; of no use if the mesh is open (cubic mesh units)."""
-    volume_after: float
-    """The same of the result (cubic mesh units)."""
-    area_before: float
-    """Surface area of the input (square mesh units)."""
-    area_after: float
-    """Surface area of the result (square mesh units)."""
-    centroid_shift: float
-    """How far the centroid of the surface moved (mesh units)."""
-    flipped_faces: int
-    """Faces whose normal turned by more than 90 degrees."""
-    pyramid_reused: bool
-    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
-    locked_vertices: int
-    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
-    unreferenced_vertices: int
-    """Vertices without a face, which stay where they are."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class EqualizerReport:
+class EqualizerReport(Movement, PyramidUse, Result):
     """What equalizer() returns."""
 
     gains: Array
     """The factor of each level's details, finest first."""
-    largest_displacement: float
-    """The longest way a vertex moved (mesh units)."""
-    rms_displacement: float
-    """Root of the mean square of the ways of all vertices (mesh units)."""
-    volume_before: float
-    """Enclosed volume of the input; of no use if the mesh is open (cubic mesh units)."""
-    volume_after: float
-    """The same of the result (cubic mesh units)."""
-    area_before: float
-    """Surface area of the input (square mesh units)."""
-    area_after: float
-    """Surface area of the result (square mesh units)."""
-    centroid_shift: float
-    """How far the centroid of the surface moved (mesh units)."""
-    flipped_faces: int
-    """Faces whose normal turned by more than 90 degrees."""
-    pyramid_reused: bool
-    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
-    locked_vertices: int
-    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
-    unreferenced_vertices: int
-    """Vertices without a face, which stay where they are."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class UnsharpReport:
+class UnsharpReport(Movement, Result):
     """What unsharp() returns."""
 
-    largest_displacement: float
-    """The longest way a vertex moved (mesh units)."""
-    rms_displacement: float
-    """Root of the mean square of the ways of all vertices (mesh units)."""
-    volume_before: float
-    """Enclosed volume of the input; of no use if the mesh is open (cubic mesh units)."""
-    volume_after: float
-    """The same of the result (cubic mesh units)."""
-    area_before: float
-    """Surface area of the input (square mesh units)."""
-    area_after: float
-    """Surface area of the result (square mesh units)."""
-    centroid_shift: float
-    """How far the centroid of the surface moved (mesh units)."""
-    flipped_faces: int
-    """Faces whose normal turned by more than 90 degrees."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class DenoiseReport:
+class DenoiseReport(Movement, Result):
     """What denoise() returns."""
 
     noise: float
@@ -317,22 +242,6 @@ class DenoiseReport:
     """Normal field: RMS detail of the normals on each level."""
     share_removed: Array | None = None
     """Normal field: share of each level's details that was taken out."""
-    largest_displacement: float
-    """The longest way a vertex moved (mesh units)."""
-    rms_displacement: float
-    """Root of the mean square of the ways of all vertices (mesh units)."""
-    volume_before: float
-    """Enclosed volume of the input; of no use if the mesh is open (cubic mesh units)."""
-    volume_after: float
-    """The same of the result (cubic mesh units)."""
-    area_before: float
-    """Surface area of the input (square mesh units)."""
-    area_after: float
-    """Surface area of the result (square mesh units)."""
-    centroid_shift: float
-    """How far the centroid of the surface moved (mesh units)."""
-    flipped_faces: int
-    """Faces whose normal turned by more than 90 degrees."""
     threshold_per_level: Array | None = None
     """Thresholding: what was used on each level (mesh units)."""
     share_zeroed: Array | None = None
@@ -343,74 +252,38 @@ class DenoiseReport:
     """Thresholding: vertices at non-manifold edges or points."""
     unreferenced_vertices: int | None = None
     """Thresholding: vertices without a face."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class RelaxAttributesReport:
+class RelaxAttributesReport(AttributeChanges, Result):
     """What relax_attributes() returns."""
 
     kept_vertices: int | None = None
     """Vertices whose values were kept: corners, or without neighbours."""
     seam_vertices: int | None = None
     """Vertices on seams of the wedge texture coordinates."""
-    largest_change: dict[str, float] = dataclasses.field(default_factory=dict)
-    """The largest change of a vertex's value; of colours 0 to 255 (units of the attribute). By attribute."""
-    rms_change: dict[str, float] = dataclasses.field(default_factory=dict)
-    """Root of the mean square of the changes (units of the attribute). By attribute."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class FilterAttributesReport:
+class FilterAttributesReport(PyramidUse, AttributeChanges, Result):
     """What filter_attributes() returns."""
 
     gains: Array
     """The factor of each level's details, finest first."""
-    largest_change: dict[str, float] = dataclasses.field(default_factory=dict)
-    """The largest change of a vertex's value; of colours 0 to 255 (units of the attribute). By attribute."""
-    rms_change: dict[str, float] = dataclasses.field(default_factory=dict)
-    """Root of the mean square of the changes (units of the attribute). By attribute."""
-    pyramid_reused: bool
-    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
-    locked_vertices: int
-    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
-    unreferenced_vertices: int
-    """Vertices without a face, which stay where they are."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class FilterCustomAttributesReport:
+class FilterCustomAttributesReport(PyramidUse, AttributeChanges, Result):
     """What filter_custom_attributes() returns."""
 
     gains: Array
     """The factor of each level's details, finest first."""
-    largest_change: dict[str, float] = dataclasses.field(default_factory=dict)
-    """The largest change of a vertex's value; of colours 0 to 255 (units of the attribute). By attribute."""
-    rms_change: dict[str, float] = dataclasses.field(default_factory=dict)
-    """Root of the mean square of the changes (units of the attribute). By attribute."""
-    pyramid_reused: bool
-    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
-    locked_vertices: int
-    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
-    unreferenced_vertices: int
-    """Vertices without a face, which stay where they are."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class DenoiseAttributesReport:
+class DenoiseAttributesReport(PyramidUse, AttributeChanges, Result):
     """What denoise_attributes() returns."""
 
-    largest_change: dict[str, float] = dataclasses.field(default_factory=dict)
-    """The largest change of a vertex's value; of colours 0 to 255 (units of the attribute). By attribute."""
-    rms_change: dict[str, float] = dataclasses.field(default_factory=dict)
-    """Root of the mean square of the changes (units of the attribute). By attribute."""
     noise: dict[str, float] = dataclasses.field(default_factory=dict)
     """Deviation of the noise found (units of the attribute). By attribute."""
     noise_per_level: dict[str, Array] = dataclasses.field(default_factory=dict)
@@ -419,18 +292,10 @@ class DenoiseAttributesReport:
     """The threshold used on each level (units of the attribute). By attribute."""
     zeroed: dict[str, Array] = dataclasses.field(default_factory=dict)
     """Share of each level's details that became 0. By attribute."""
-    pyramid_reused: bool
-    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
-    locked_vertices: int
-    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
-    unreferenced_vertices: int
-    """Vertices without a face, which stay where they are."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class GenerateTexcoordReport:
+class GenerateTexcoordReport(PyramidUse, Result):
     """What generate_texcoord() returns."""
 
     level: int
@@ -443,18 +308,10 @@ class GenerateTexcoordReport:
     """Faces across the seam of a cylinder or sphere, whose wedges go on beyond 1."""
     pole_faces: int
     """Faces around a pole of the projection."""
-    pyramid_reused: bool
-    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
-    locked_vertices: int
-    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
-    unreferenced_vertices: int
-    """Vertices without a face, which stay where they are."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class AdaptiveReconstructionReport:
+class AdaptiveReconstructionReport(Result):
     """What adaptive_reconstruction() returns."""
 
     faces: int
@@ -478,1498 +335,705 @@ class AdaptiveReconstructionReport:
     """The same, relative (percent of the box diagonal)."""
     largest_distance_percent: float | None = None
     """The same, relative (percent of the box diagonal)."""
-    result_hash: float
-    """Hash of all that was computed: the same if, and in practice only if, the result is."""
 
 
+@also_flat(Pyramid)
 def build_pyramid(
-    ms: MeshSet,
-    *,
-    scheme: Scheme = "Guskov",
-    operator: Operator = "second difference with flaps",
-    presmooth: float = 0.5,
-    grouping: Grouping = "independent sets",
-    storage: Storage = "double",
-    sets_per_level: int = 2,
-    level_ratio: float = 0.0,
-    base_vertices: int = 100,
-    length_weight: float = 0.1,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, pyramid: Pyramid | None = None,
 ) -> BuildPyramidReport:
-    """Builds a pyramid of levels of resolution and keeps it with the mesh, so that the other multiresolution
-    filters answer at once while the mesh stays the same.
+    """Builds a pyramid of levels of resolution and keeps it with the mesh, so that the other multiresolution filters
+    answer at once while the mesh stays the same.
 
-    The mesh is not changed. Returned for each level: number of vertices, wavelength (twice the mean edge length)
-    and root mean square of the details; the largest error of the reconstruction; and what is unusual in the mesh.
-    See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999. See  Roy,
-    Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics
-    Technologies 2003.
+    The mesh is not changed. Returned for each level: number of vertices, wavelength (twice the mean edge length) and
+    root mean square of the details; the largest error of the reconstruction; and what is unusual in the mesh.
 
     The filter compute_multires_pyramid, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
-            structure follows when coarse structure is changed.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
-            noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
-        grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
-            neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
-        storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
-            millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
-            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
-        level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
-            makes every vertex a level of its own. A number, 0 to 0.99.
-        base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
-        length_weight: Even spacing. Weight of edge length against the quadric error when vertices are chosen: 0
-            keeps vertices where the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
+        Roy, Foufou, Koschan, Truchetet, Abidi, "Multiresolution Analysis for Irregular Meshes", SPIE Photonics
+            Technologies 2003.
     """
-    return apply(BuildPyramidReport, ms, "compute_multires_pyramid", {
-        "scheme": scheme,
-        "operator": operator,
-        "presmooth": presmooth,
-        "grouping": grouping,
-        "storage": storage,
-        "sets_per_level": sets_per_level,
-        "level_ratio": level_ratio,
-        "base_vertices": base_vertices,
-        "length_weight": length_weight,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(BuildPyramidReport, "compute_multires_pyramid", **locals())
 
 
+@also_flat(Pyramid)
 def level_as_layer(
-    ms: MeshSet,
-    *,
-    level: int | None = None,
-    smoothed: bool = False,
-    scheme: Scheme = "Guskov",
-    operator: Operator = "second difference with flaps",
-    presmooth: float = 0.5,
-    grouping: Grouping = "independent sets",
-    storage: Storage = "double",
-    sets_per_level: int = 2,
-    level_ratio: float = 0.0,
-    base_vertices: int = 100,
-    length_weight: float = 0.1,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, level: int | None = None, smoothed: bool = False, pyramid: Pyramid | None = None,
 ) -> LevelAsLayerReport:
-    """Makes a new layer with the mesh of one level of the pyramid: a subset of the vertices with all their
-    attributes.
+    """Makes a new layer with the mesh of one level of the pyramid: a subset of the vertices with all their attributes.
 
-    The custom vertex attribute  source_vertex  holds the index of each in the input.  See  Roy, Foufou, Koschan,
-    Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics Technologies 2003.
+    The custom vertex attribute source_vertex holds the index of each in the input.
 
     The filter generate_multires_level, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        level: Level. 0 is the mesh itself; each level has about three quarters of the vertices of the one before. A
-            number beyond the last level is an error that names the last. None: derived from the mesh. A whole
-            number, at least 0.
-        smoothed: Smoothed positions. Place the vertices where the coarse level of the pyramid has them
-            (presmoothed) instead of where they are in the mesh.
-        scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
-            structure follows when coarse structure is changed.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
-            noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
-        grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
-            neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
-        storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
-            millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
-            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
-        level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
-            makes every vertex a level of its own. A number, 0 to 0.99.
-        base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
-        length_weight: Even spacing. Weight of edge length against the quadric error when vertices are chosen: 0
-            keeps vertices where the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        level: 0 is the mesh itself; each level has about three quarters of the vertices of the one before. A number
+            beyond the last level is an error that names the last. A whole number, at least 0. None: derived from the
+            mesh.
+        smoothed: Place the vertices where the coarse level of the pyramid has them (presmoothed) instead of where they
+            are in the mesh.
+        pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Roy, Foufou, Koschan, Truchetet, Abidi, "Multiresolution Analysis for Irregular Meshes", SPIE Photonics
+            Technologies 2003.
     """
-    return apply(LevelAsLayerReport, ms, "generate_multires_level", {
-        "level": level,
-        "smoothed": smoothed,
-        "scheme": scheme,
-        "operator": operator,
-        "presmooth": presmooth,
-        "grouping": grouping,
-        "storage": storage,
-        "sets_per_level": sets_per_level,
-        "level_ratio": level_ratio,
-        "base_vertices": base_vertices,
-        "length_weight": length_weight,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(LevelAsLayerReport, "generate_multires_level", **locals())
 
 
+@also_flat(Pyramid)
 def detail_to_quality(
-    ms: MeshSet,
-    *,
-    unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
-    finest: float | None = None,
-    coarsest: float | None = None,
-    softness: float = 0.0,
-    signed_normal: bool = False,
-    scheme: Scheme = "Guskov",
-    operator: Operator = "second difference with flaps",
-    presmooth: float = 0.5,
-    grouping: Grouping = "independent sets",
-    storage: Storage = "double",
-    sets_per_level: int = 2,
-    level_ratio: float = 0.0,
-    base_vertices: int = 100,
-    length_weight: float = 0.1,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
+    finest: float | None = None, coarsest: float | None = None, softness: float = 0.0, signed_normal: bool = False,
+    pyramid: Pyramid | None = None,
 ) -> DetailToQualityReport:
-    """Stores in the vertex quality how much a band of scales adds to the shape at each vertex: the distance to
-    where the vertex would be without the band, or its signed part along the normal, in mesh units.
-
-    See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999.
+    """Stores in the vertex quality how much a band of scales adds to the shape at each vertex: the distance to where
+    the vertex would be without the band, or its signed part along the normal, in mesh units.
 
     The filter compute_scalar_multires_detail_per_vertex, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        unit: Unit. What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the
-            finest a mesh can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the
-            diagonal of the bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the
-            level has. If you change only the unit, the default limits are converted.
-        finest: Finest. Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. None:
-            derived from the mesh. A number, at least 0.
-        coarsest: Coarsest. Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices.
-            None: derived from the mesh. A number, at least 0.
-        softness: Softness. Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
-            10.
-        signed_normal: Signed, along the normal. Store the part of the detail along the vertex normal, positive
-            outwards, instead of its length.
-        scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
-            structure follows when coarse structure is changed.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
-            noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
-        grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
-            neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
-        storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
-            millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
-            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
-        level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
-            makes every vertex a level of its own. A number, 0 to 0.99.
-        base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
-        length_weight: Even spacing. Weight of edge length against the quadric error when vertices are chosen: 0
-            keeps vertices where the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
+            can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. If you
+            change only the unit, the default limits are converted.
+        finest: Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. A number, at least
+            0. None: derived from the mesh.
+        coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
+            least 0. None: derived from the mesh.
+        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        signed_normal: Store the part of the detail along the vertex normal, positive outwards, instead of its length.
+        pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
     """
-    return apply(DetailToQualityReport, ms, "compute_scalar_multires_detail_per_vertex", {
-        "unit": unit,
-        "finest": finest,
-        "coarsest": coarsest,
-        "softness": softness,
-        "signed_normal": signed_normal,
-        "scheme": scheme,
-        "operator": operator,
-        "presmooth": presmooth,
-        "grouping": grouping,
-        "storage": storage,
-        "sets_per_level": sets_per_level,
-        "level_ratio": level_ratio,
-        "base_vertices": base_vertices,
-        "length_weight": length_weight,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(DetailToQualityReport, "compute_scalar_multires_detail_per_vertex", **locals())
 
 
+@also_flat(Pyramid)
 def low_pass(
-    ms: MeshSet,
-    *,
-    unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
-    cutoff: float | None = None,
-    softness: float = 0.0,
-    selected: bool | None = None,
-    quality_mask: bool = False,
-    relative_to: RelativeTo = "current shape",
-    scheme: Scheme = "Guskov",
-    operator: Operator = "second difference with flaps",
-    presmooth: float = 0.5,
-    grouping: Grouping = "independent sets",
-    storage: Storage = "double",
-    sets_per_level: int = 2,
-    level_ratio: float = 0.0,
-    base_vertices: int = 100,
-    length_weight: float = 0.1,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
+    cutoff: float | None = None, softness: float = 0.0, selected: bool | None = None, quality_mask: bool = False,
+    relative_to: RelativeTo = "current shape", pyramid: Pyramid | None = None,
 ) -> LowPassReport:
     """Removes everything finer than a wavelength and keeps everything coarser, in one pass, without shrinking the
     shape.
-
-    See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999.
 
     The filter apply_coord_multires_low_pass, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        unit: Unit. What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the
-            finest a mesh can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the
-            diagonal of the bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the
-            level has. If you change only the unit, the default limits are converted.
-        cutoff: Cutoff. Everything finer than this is removed: shorter waves, lower levels, levels with more
-            vertices. None: derived from the mesh. A number, at least 0.
-        softness: Softness. Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
-            10.
-        selected: Only on selection. Change selected vertices and the vertices of selected faces only. The selection
-            stays as it is. None: derived from the mesh.
-        quality_mask: Quality as mask. Scale the effect at each vertex by its quality: 0 is no change, 1 the full
-            one, values outside are clamped.
-        relative_to: Relative to. Current shape: the filter changes the mesh as it is now. Original: it starts again
-            from the shape the mesh had before any Multiresolution filter moved it, so that changes do not add up,
-            and values that change nothing (gains of 1) bring exactly that shape back. Outside the selection the
-            mesh stays as it is. The original is kept with the layer until something else changes the mesh; files do
-            not hold it.
-        scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
-            structure follows when coarse structure is changed.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
-            noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
-        grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
-            neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
-        storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
-            millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
-            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
-        level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
-            makes every vertex a level of its own. A number, 0 to 0.99.
-        base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
-        length_weight: Even spacing. Weight of edge length against the quadric error when vertices are chosen: 0
-            keeps vertices where the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
+            can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. If you
+            change only the unit, the default limits are converted.
+        cutoff: Everything finer than this is removed: shorter waves, lower levels, levels with more vertices. A number,
+            at least 0. None: derived from the mesh.
+        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        relative_to: Current shape: the filter changes the mesh as it is now. Original: it starts again from the shape
+            the mesh had before any Multiresolution filter moved it, so that changes do not add up, and values that
+            change nothing (gains of 1) bring exactly that shape back. Outside the selection the mesh stays as it is.
+            The original is kept with the layer until something else changes the mesh; files do not hold it.
+        pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
     """
-    return apply(LowPassReport, ms, "apply_coord_multires_low_pass", {
-        "unit": unit,
-        "cutoff": cutoff,
-        "softness": softness,
-        "selected": selected,
-        "quality_mask": quality_mask,
-        "relative_to": relative_to,
-        "scheme": scheme,
-        "operator": operator,
-        "presmooth": presmooth,
-        "grouping": grouping,
-        "storage": storage,
-        "sets_per_level": sets_per_level,
-        "level_ratio": level_ratio,
-        "base_vertices": base_vertices,
-        "length_weight": length_weight,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(LowPassReport, "apply_coord_multires_low_pass", **locals())
 
 
+@also_flat(Pyramid)
 def stop_band(
-    ms: MeshSet,
-    *,
-    unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
-    finest: float | None = None,
-    coarsest: float | None = None,
-    softness: float = 0.0,
-    selected: bool | None = None,
-    quality_mask: bool = False,
-    relative_to: RelativeTo = "current shape",
-    scheme: Scheme = "Guskov",
-    operator: Operator = "second difference with flaps",
-    presmooth: float = 0.5,
-    grouping: Grouping = "independent sets",
-    storage: Storage = "double",
-    sets_per_level: int = 2,
-    level_ratio: float = 0.0,
-    base_vertices: int = 100,
-    length_weight: float = 0.1,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
+    finest: float | None = None, coarsest: float | None = None, softness: float = 0.0, selected: bool | None = None,
+    quality_mask: bool = False, relative_to: RelativeTo = "current shape", pyramid: Pyramid | None = None,
 ) -> StopBandReport:
     """Removes the structure between two wavelengths; finer engraving and the coarse shape stay.
-
-    See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999. See  Roy,
-    Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics
-    Technologies 2003.
 
     The filter apply_coord_multires_stop_band, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        unit: Unit. What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the
-            finest a mesh can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the
-            diagonal of the bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the
-            level has. If you change only the unit, the default limits are converted.
-        finest: Finest. Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. None:
-            derived from the mesh. A number, at least 0.
-        coarsest: Coarsest. Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices.
-            None: derived from the mesh. A number, at least 0.
-        softness: Softness. Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
-            10.
-        selected: Only on selection. Change selected vertices and the vertices of selected faces only. The selection
-            stays as it is. None: derived from the mesh.
-        quality_mask: Quality as mask. Scale the effect at each vertex by its quality: 0 is no change, 1 the full
-            one, values outside are clamped.
-        relative_to: Relative to. Current shape: the filter changes the mesh as it is now. Original: it starts again
-            from the shape the mesh had before any Multiresolution filter moved it, so that changes do not add up,
-            and values that change nothing (gains of 1) bring exactly that shape back. Outside the selection the
-            mesh stays as it is. The original is kept with the layer until something else changes the mesh; files do
-            not hold it.
-        scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
-            structure follows when coarse structure is changed.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
-            noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
-        grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
-            neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
-        storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
-            millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
-            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
-        level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
-            makes every vertex a level of its own. A number, 0 to 0.99.
-        base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
-        length_weight: Even spacing. Weight of edge length against the quadric error when vertices are chosen: 0
-            keeps vertices where the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
+            can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. If you
+            change only the unit, the default limits are converted.
+        finest: Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. A number, at least
+            0. None: derived from the mesh.
+        coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
+            least 0. None: derived from the mesh.
+        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        relative_to: Current shape: the filter changes the mesh as it is now. Original: it starts again from the shape
+            the mesh had before any Multiresolution filter moved it, so that changes do not add up, and values that
+            change nothing (gains of 1) bring exactly that shape back. Outside the selection the mesh stays as it is.
+            The original is kept with the layer until something else changes the mesh; files do not hold it.
+        pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
+        Roy, Foufou, Koschan, Truchetet, Abidi, "Multiresolution Analysis for Irregular Meshes", SPIE Photonics
+            Technologies 2003.
     """
-    return apply(StopBandReport, ms, "apply_coord_multires_stop_band", {
-        "unit": unit,
-        "finest": finest,
-        "coarsest": coarsest,
-        "softness": softness,
-        "selected": selected,
-        "quality_mask": quality_mask,
-        "relative_to": relative_to,
-        "scheme": scheme,
-        "operator": operator,
-        "presmooth": presmooth,
-        "grouping": grouping,
-        "storage": storage,
-        "sets_per_level": sets_per_level,
-        "level_ratio": level_ratio,
-        "base_vertices": base_vertices,
-        "length_weight": length_weight,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(StopBandReport, "apply_coord_multires_stop_band", **locals())
 
 
+@also_flat(Pyramid)
 def enhance(
-    ms: MeshSet,
-    *,
-    gain: float = 2.0,
-    unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
-    finest: float | None = None,
-    coarsest: float | None = None,
-    softness: float = 0.0,
-    selected: bool | None = None,
-    quality_mask: bool = False,
-    relative_to: RelativeTo = "current shape",
-    scheme: Scheme = "Guskov",
-    operator: Operator = "second difference with flaps",
-    presmooth: float = 0.5,
-    grouping: Grouping = "independent sets",
-    storage: Storage = "double",
-    sets_per_level: int = 2,
-    level_ratio: float = 0.0,
-    base_vertices: int = 100,
-    length_weight: float = 0.1,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, gain: float = 2.0,
+    unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength", finest: float | None = None,
+    coarsest: float | None = None, softness: float = 0.0, selected: bool | None = None, quality_mask: bool = False,
+    relative_to: RelativeTo = "current shape", pyramid: Pyramid | None = None,
 ) -> EnhanceReport:
-    """Multiplies the structure between two wavelengths by a gain: brings out what is worn, or weakens what
-    disturbs.
-
-    See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999. See  Roy,
-    Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics
-    Technologies 2003.
+    """Multiplies the structure between two wavelengths by a gain: brings out what is worn, or weakens what disturbs.
 
     The filter apply_coord_multires_enhance, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        gain: Gain. Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them. A number,
-            0 to 10.
-        unit: Unit. What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the
-            finest a mesh can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the
-            diagonal of the bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the
-            level has. If you change only the unit, the default limits are converted.
-        finest: Finest. Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. None:
-            derived from the mesh. A number, at least 0.
-        coarsest: Coarsest. Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices.
-            None: derived from the mesh. A number, at least 0.
-        softness: Softness. Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
-            10.
-        selected: Only on selection. Change selected vertices and the vertices of selected faces only. The selection
-            stays as it is. None: derived from the mesh.
-        quality_mask: Quality as mask. Scale the effect at each vertex by its quality: 0 is no change, 1 the full
-            one, values outside are clamped.
-        relative_to: Relative to. Current shape: the filter changes the mesh as it is now. Original: it starts again
-            from the shape the mesh had before any Multiresolution filter moved it, so that changes do not add up,
-            and values that change nothing (gains of 1) bring exactly that shape back. Outside the selection the
-            mesh stays as it is. The original is kept with the layer until something else changes the mesh; files do
-            not hold it.
-        scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
-            structure follows when coarse structure is changed.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
-            noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
-        grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
-            neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
-        storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
-            millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
-            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
-        level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
-            makes every vertex a level of its own. A number, 0 to 0.99.
-        base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
-        length_weight: Even spacing. Weight of edge length against the quadric error when vertices are chosen: 0
-            keeps vertices where the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        gain: Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them. A number, 0 to 10.
+        unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
+            can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. If you
+            change only the unit, the default limits are converted.
+        finest: Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. A number, at least
+            0. None: derived from the mesh.
+        coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
+            least 0. None: derived from the mesh.
+        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        relative_to: Current shape: the filter changes the mesh as it is now. Original: it starts again from the shape
+            the mesh had before any Multiresolution filter moved it, so that changes do not add up, and values that
+            change nothing (gains of 1) bring exactly that shape back. Outside the selection the mesh stays as it is.
+            The original is kept with the layer until something else changes the mesh; files do not hold it.
+        pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
+        Roy, Foufou, Koschan, Truchetet, Abidi, "Multiresolution Analysis for Irregular Meshes", SPIE Photonics
+            Technologies 2003.
     """
-    return apply(EnhanceReport, ms, "apply_coord_multires_enhance", {
-        "gain": gain,
-        "unit": unit,
-        "finest": finest,
-        "coarsest": coarsest,
-        "softness": softness,
-        "selected": selected,
-        "quality_mask": quality_mask,
-        "relative_to": relative_to,
-        "scheme": scheme,
-        "operator": operator,
-        "presmooth": presmooth,
-        "grouping": grouping,
-        "storage": storage,
-        "sets_per_level": sets_per_level,
-        "level_ratio": level_ratio,
-        "base_vertices": base_vertices,
-        "length_weight": length_weight,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(EnhanceReport, "apply_coord_multires_enhance", **locals())
 
 
+@also_flat(Pyramid)
 def equalizer(
-    ms: MeshSet,
-    *,
-    gain_1: float = 1.0,
-    gain_2: float = 1.0,
-    gain_3: float = 1.0,
-    gain_4: float = 1.0,
-    gain_5: float = 1.0,
-    gain_6: float = 1.0,
-    gain_7: float = 1.0,
-    gain_8: float = 1.0,
-    softness: float = 0.5,
-    selected: bool | None = None,
-    quality_mask: bool = False,
-    relative_to: RelativeTo = "current shape",
-    scheme: Scheme = "Guskov",
-    operator: Operator = "second difference with flaps",
-    presmooth: float = 0.5,
-    grouping: Grouping = "independent sets",
-    storage: Storage = "double",
-    sets_per_level: int = 2,
-    level_ratio: float = 0.0,
-    base_vertices: int = 100,
-    length_weight: float = 0.1,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, gain_1: float = 1.0, gain_2: float = 1.0, gain_3: float = 1.0, gain_4: float = 1.0,
+    gain_5: float = 1.0, gain_6: float = 1.0, gain_7: float = 1.0, gain_8: float = 1.0, softness: float = 0.5,
+    selected: bool | None = None, quality_mask: bool = False, relative_to: RelativeTo = "current shape",
+    pyramid: Pyramid | None = None,
 ) -> EqualizerReport:
     """Eight gains for eight bands of wavelengths from fine to coarse, given in the mesh's unit.
 
-    With all gains at 1 the mesh comes back unchanged.  See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal
-    Processing for Meshes" , SIGGRAPH 1999.
+    With all gains at 1 the mesh comes back unchanged.
 
     The filter apply_coord_multires_equalizer, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        gain_1: Gain 1. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
-            doubles it. A number, 0 to 4.
-        gain_2: Gain 2. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
-            doubles it. A number, 0 to 4.
-        gain_3: Gain 3. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
-            doubles it. A number, 0 to 4.
-        gain_4: Gain 4. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
-            doubles it. A number, 0 to 4.
-        gain_5: Gain 5. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
-            doubles it. A number, 0 to 4.
-        gain_6: Gain 6. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
-            doubles it. A number, 0 to 4.
-        gain_7: Gain 7. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
-            doubles it. A number, 0 to 4.
-        gain_8: Gain 8. Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2
-            doubles it. A number, 0 to 4.
-        softness: Softness. Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
-            10.
-        selected: Only on selection. Change selected vertices and the vertices of selected faces only. The selection
-            stays as it is. None: derived from the mesh.
-        quality_mask: Quality as mask. Scale the effect at each vertex by its quality: 0 is no change, 1 the full
-            one, values outside are clamped.
-        relative_to: Relative to. Current shape: the filter changes the mesh as it is now. Original: it starts again
-            from the shape the mesh had before any Multiresolution filter moved it, so that changes do not add up,
-            and values that change nothing (gains of 1) bring exactly that shape back. Outside the selection the
-            mesh stays as it is. The original is kept with the layer until something else changes the mesh; files do
-            not hold it.
-        scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
-            structure follows when coarse structure is changed.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
-            noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
-        grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
-            neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
-        storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
-            millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
-            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
-        level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
-            makes every vertex a level of its own. A number, 0 to 0.99.
-        base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
-        length_weight: Even spacing. Weight of edge length against the quadric error when vertices are chosen: 0
-            keeps vertices where the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        gain_1, gain_2, gain_3, gain_4, gain_5, gain_6, gain_7, gain_8: Factor for the structure of these wavelengths
+            (mesh units): 1 leaves it, 0 removes it, 2 doubles it. A number, 0 to 4.
+        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        relative_to: Current shape: the filter changes the mesh as it is now. Original: it starts again from the shape
+            the mesh had before any Multiresolution filter moved it, so that changes do not add up, and values that
+            change nothing (gains of 1) bring exactly that shape back. Outside the selection the mesh stays as it is.
+            The original is kept with the layer until something else changes the mesh; files do not hold it.
+        pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
     """
-    return apply(EqualizerReport, ms, "apply_coord_multires_equalizer", {
-        "gain_1": gain_1,
-        "gain_2": gain_2,
-        "gain_3": gain_3,
-        "gain_4": gain_4,
-        "gain_5": gain_5,
-        "gain_6": gain_6,
-        "gain_7": gain_7,
-        "gain_8": gain_8,
-        "softness": softness,
-        "selected": selected,
-        "quality_mask": quality_mask,
-        "relative_to": relative_to,
-        "scheme": scheme,
-        "operator": operator,
-        "presmooth": presmooth,
-        "grouping": grouping,
-        "storage": storage,
-        "sets_per_level": sets_per_level,
-        "level_ratio": level_ratio,
-        "base_vertices": base_vertices,
-        "length_weight": length_weight,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(EqualizerReport, "apply_coord_multires_equalizer", **locals())
 
 
 def unsharp(
-    ms: MeshSet,
-    *,
-    xi: float = 2.0,
-    iterations: int = 10,
-    operator: Operator = "second difference with flaps",
-    selected: bool | None = None,
-    quality_mask: bool = False,
-    relative_to: RelativeTo = "current shape",
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, xi: float = 2.0, iterations: int = 10, operator: Operator = "second difference with flaps",
+    selected: bool | None = None, quality_mask: bool = False, relative_to: RelativeTo = "current shape",
+    features: Features = "none", feature_angle: float = 40.0,
 ) -> UnsharpReport:
     """Strengthens (or weakens) what some steps of relaxation would take away, without a pyramid.
 
-    Best for small meshes; scans with noise are better served by the bands.  See  Guskov, Sweldens, Schröder ,
-    "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999.
+    Best for small meshes; scans with noise are better served by the bands.
 
     The filter apply_coord_multires_unsharp, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        xi: Strength. 1 changes nothing; 2 doubles what the relaxation takes away; between 0 and 1 smooths, 0 fully.
-            A number, 0 to 10.
-        iterations: Relaxation steps. More steps reach coarser structure; each costs the same. A whole number, 1 to
-            10000.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        selected: Only on selection. Change selected vertices and the vertices of selected faces only. The selection
-            stays as it is. None: derived from the mesh.
-        quality_mask: Quality as mask. Scale the effect at each vertex by its quality: 0 is no change, 1 the full
-            one, values outside are clamped.
-        relative_to: Relative to. Current shape: the filter changes the mesh as it is now. Original: it starts again
-            from the shape the mesh had before any Multiresolution filter moved it, so that changes do not add up,
-            and values that change nothing (gains of 1) bring exactly that shape back. Outside the selection the
-            mesh stays as it is. The original is kept with the layer until something else changes the mesh; files do
-            not hold it.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        xi: 1 changes nothing; 2 doubles what the relaxation takes away; between 0 and 1 smooths, 0 fully. A number, 0
+            to 10.
+        iterations: More steps reach coarser structure; each costs the same. A whole number, 1 to 10000.
+        operator: Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape
+            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        relative_to: Current shape: the filter changes the mesh as it is now. Original: it starts again from the shape
+            the mesh had before any Multiresolution filter moved it, so that changes do not add up, and values that
+            change nothing (gains of 1) bring exactly that shape back. Outside the selection the mesh stays as it is.
+            The original is kept with the layer until something else changes the mesh; files do not hold it.
+        features: Edges that are not smoothed across: none; those where the normals of the two faces differ by more than
+            the feature angle; those not marked as faux; those selected on their faces.
+        feature_angle: Degrees between the normals of two faces above which their edge is sharp. A number, 0.01 to
+            179.99.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
     """
-    return apply(UnsharpReport, ms, "apply_coord_multires_unsharp", {
-        "xi": xi,
-        "iterations": iterations,
-        "operator": operator,
-        "selected": selected,
-        "quality_mask": quality_mask,
-        "relative_to": relative_to,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(UnsharpReport, "apply_coord_multires_unsharp", **locals())
 
 
+@also_flat(Pyramid)
 def denoise(
-    ms: MeshSet,
-    *,
-    method: Literal["normal field", "soft threshold", "hard threshold"] = "normal field",
-    threshold_unit: Literal["automatic", "mesh units", "percent"] = "automatic",
-    threshold: float = 0.0,
-    strength: float = 1.0,
-    keep_volume: bool = False,
-    confidence: bool = False,
-    selected: bool | None = None,
-    quality_mask: bool = False,
-    relative_to: RelativeTo = "current shape",
-    finest_level: int = 0,
-    coarsest_level: int = 5,
-    per_level: bool = True,
-    normal_only: bool = False,
-    cycle_spins: int = 1,
-    scheme: Scheme = "Guskov",
-    operator: Operator = "second difference with flaps",
-    presmooth: float = 0.5,
-    grouping: Grouping = "independent sets",
-    storage: Storage = "double",
-    sets_per_level: int = 1,
-    level_ratio: float = 0.0,
-    base_vertices: int = 100,
-    length_weight: float = 0.1,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, method: Literal["normal field", "soft threshold", "hard threshold"] = "normal field",
+    threshold_unit: Literal["automatic", "mesh units", "percent"] = "automatic", threshold: float = 0.0,
+    strength: float = 1.0, keep_volume: bool = False, confidence: bool = False, selected: bool | None = None,
+    quality_mask: bool = False, relative_to: RelativeTo = "current shape", finest_level: int = 0,
+    coarsest_level: int = 5, per_level: bool = True, normal_only: bool = False, cycle_spins: int = 1,
+    pyramid: Pyramid | None = None,
 ) -> DenoiseReport:
     """Removes noise and keeps shape, without a parameter to set.
-
-    See  Roy, Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics
-    Technologies 2003. See  Sun, Rosin, Martin, Langbein ,  "Fast and Effective Feature-Preserving Mesh Denoising" ,
-    IEEE TVCG 2007. See  Zheng, Fu, Au, Tai ,  "Bilateral Normal Filtering for Mesh Denoising" , IEEE TVCG 2011.
 
     The filter apply_coord_multires_denoise, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        method: Method. Normal field: denoises the face normals over several scales and moves the vertices to fit;
-            tunes itself and keeps sharp edges. Soft threshold: shrinks the pyramid's details (Roy). Hard threshold:
-            drops small details and leaves large ones.
-        threshold_unit: Threshold. Automatic: from the noise found in the mesh. Mesh units, or percent of the
-            diagonal of the bounding box: the value below.
-        threshold: Threshold value. Size of the noise if the threshold is not automatic: its standard deviation for
-            the normal field, the length up to which details are dropped for the others. A number, at least 0.
-        strength: Strength. Factor for the noise: 1 removes the noise found, 2 takes twice as much for noise, 0
-            changes nothing. The threshold methods use it if their threshold is automatic. A number, 0 to 4.
-        keep_volume: Keep volume. Shift the surface along its normals until the volume is that of the input.
-        confidence: Quality as confidence. Vertex quality says how far a vertex is trusted: 1 stays, 0 gets the full
-            threshold.
-        selected: Only on selection. Change selected vertices and the vertices of selected faces only. The selection
-            stays as it is. None: derived from the mesh.
-        quality_mask: Quality as mask. Scale the effect at each vertex by its quality: 0 is no change, 1 the full
-            one, values outside are clamped.
-        relative_to: Relative to. Current shape: the filter changes the mesh as it is now. Original: it starts again
-            from the shape the mesh had before any Multiresolution filter moved it, so that changes do not add up,
-            and values that change nothing (gains of 1) bring exactly that shape back. Outside the selection the
-            mesh stays as it is. The original is kept with the layer until something else changes the mesh; files do
-            not hold it.
-        finest_level: Finest level. Thresholding: first level whose details are shrunk, 0 is the finest. A whole
-            number, at least 0.
-        coarsest_level: Coarsest level. Thresholding: details of levels up to, but not with, this one are shrunk. A
-            whole number, at least 1.
-        per_level: Threshold per level. Thresholding: scale the automatic threshold to the noise each level holds.
-        normal_only: Along the normal only. Thresholding: leave the tangential part of details as it is.
-        cycle_spins: Cycle spinning. Thresholding: average over so many different hierarchies; the time grows with
-            it. A whole number, 1 to 64.
-        scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
-            structure follows when coarse structure is changed.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
-            noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
-        grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
-            neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
-        storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
-            millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
-            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
-        level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
-            makes every vertex a level of its own. A number, 0 to 0.99.
-        base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
-        length_weight: Even spacing. Weight of edge length against the quadric error when vertices are chosen: 0
-            keeps vertices where the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        method: Normal field: denoises the face normals over several scales and moves the vertices to fit; tunes itself
+            and keeps sharp edges. Soft threshold: shrinks the pyramid's details (Roy). Hard threshold: drops small
+            details and leaves large ones.
+        threshold_unit: Automatic: from the noise found in the mesh. Mesh units, or percent of the diagonal of the
+            bounding box: the value below.
+        threshold: Size of the noise if the threshold is not automatic: its standard deviation for the normal field, the
+            length up to which details are dropped for the others. A number, at least 0.
+        strength: Factor for the noise: 1 removes the noise found, 2 takes twice as much for noise, 0 changes nothing.
+            The threshold methods use it if their threshold is automatic. A number, 0 to 4.
+        keep_volume: Shift the surface along its normals until the volume is that of the input.
+        confidence: Vertex quality says how far a vertex is trusted: 1 stays, 0 gets the full threshold.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        relative_to: Current shape: the filter changes the mesh as it is now. Original: it starts again from the shape
+            the mesh had before any Multiresolution filter moved it, so that changes do not add up, and values that
+            change nothing (gains of 1) bring exactly that shape back. Outside the selection the mesh stays as it is.
+            The original is kept with the layer until something else changes the mesh; files do not hold it.
+        finest_level: Thresholding: first level whose details are shrunk, 0 is the finest. A whole number, at least 0.
+        coarsest_level: Thresholding: details of levels up to, but not with, this one are shrunk. A whole number, at
+            least 1.
+        per_level: Thresholding: scale the automatic threshold to the noise each level holds.
+        normal_only: Thresholding: leave the tangential part of details as it is.
+        cycle_spins: Thresholding: average over so many different hierarchies; the time grows with it. A whole number, 1
+            to 64.
+        pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Roy, Foufou, Koschan, Truchetet, Abidi, "Multiresolution Analysis for Irregular Meshes", SPIE Photonics
+            Technologies 2003.
+        Sun, Rosin, Martin, Langbein, "Fast and Effective Feature-Preserving Mesh Denoising", IEEE TVCG 2007.
+        Zheng, Fu, Au, Tai, "Bilateral Normal Filtering for Mesh Denoising", IEEE TVCG 2011.
     """
-    return apply(DenoiseReport, ms, "apply_coord_multires_denoise", {
-        "method": method,
-        "threshold_unit": threshold_unit,
-        "threshold": threshold,
-        "strength": strength,
-        "keep_volume": keep_volume,
-        "confidence": confidence,
-        "selected": selected,
-        "quality_mask": quality_mask,
-        "relative_to": relative_to,
-        "finest_level": finest_level,
-        "coarsest_level": coarsest_level,
-        "per_level": per_level,
-        "normal_only": normal_only,
-        "cycle_spins": cycle_spins,
-        "scheme": scheme,
-        "operator": operator,
-        "presmooth": presmooth,
-        "grouping": grouping,
-        "storage": storage,
-        "sets_per_level": sets_per_level,
-        "level_ratio": level_ratio,
-        "base_vertices": base_vertices,
-        "length_weight": length_weight,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(DenoiseReport, "apply_coord_multires_denoise", **locals())
 
 
 def relax_attributes(
-    ms: MeshSet,
-    *,
-    color: bool | None = None,
-    quality: bool | None = None,
-    texcoord: bool = False,
-    wedge_texcoord: bool = False,
-    custom: bool = False,
-    custom_names: str = "",
-    iterations: int = 1,
-    strength: float = 1.0,
-    operator: Operator = "cotangent Delaunay",
-    corner_angle: float = 45.0,
-    keep_outline: bool = True,
-    linear_light: bool = False,
-    selected: bool | None = None,
-    quality_mask: bool = False,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, color: bool | None = None, quality: bool | None = None, texcoord: bool = False,
+    wedge_texcoord: bool = False, custom: bool = False, custom_names: str = "", iterations: int = 1,
+    strength: float = 1.0, operator: Operator = "cotangent Delaunay", corner_angle: float = 45.0,
+    keep_outline: bool = True, linear_light: bool = False, selected: bool | None = None, quality_mask: bool = False,
+    features: Features = "none", feature_angle: float = 40.0,
 ) -> RelaxAttributesReport:
     """Smooths attributes along the surface: colours with alpha, quality, texture coordinates, custom scalars and
     points.
 
-    Every value becomes a mean of those around it with weights from the geometry, which itself stays as it is.
-    Colours are rounded once, at the end.  See  Roy, Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis
-    for Irregular Meshes" , SPIE Photonics Technologies 2003.
+    Every value becomes a mean of those around it with weights from the geometry, which itself stays as it is. Colours
+    are rounded once, at the end.
 
     The filter apply_attributes_multires_relaxation, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        color: Vertex colour. With alpha. None: derived from the mesh.
-        quality: Vertex quality. The scalar value of the vertices. None: derived from the mesh.
-        texcoord: Vertex texture coordinates. Of the vertices.
-        wedge_texcoord: Wedge texture coordinates. Of the faces' corners, chart by chart: corners with the same
-            vertex and the same texture coordinate stay together.
-        custom: Custom attributes. Custom scalars and points of the vertices.
-        custom_names: Names of custom attributes. Which custom attributes: their names, separated by commas. Empty:
-            all, but for source_vertex.
-        iterations: Iterations. Steps of relaxation; each reaches a ring further. A whole number, 1 to 10000.
-        strength: Strength. Share of each step that is taken: 1 replaces a value by the mean around it. A number,
-            1e-06 to 1.
-        operator: Relaxation operator. Weights of the neighbours, from the geometry. Delaunay cotangents: means in
-            the strict sense, that keep linear functions on planes. Cotangents: those of the paper, which may be
-            negative on bad triangles. The umbrella ignores geometry.
-        corner_angle: Corner angle. Degrees: where the boundary turns by more than this, values are kept. A number,
-            0 to 180.
-        keep_outline: Keep outlines of texture charts. Keep texture coordinates on seams and boundaries as they are,
-            so that charts keep their outline in the picture. Off: they are relaxed along the outline, both sides of
-            a seam alike.
-        linear_light: Colours as light. Decode colours (sRGB) to amounts of light before computing with them, and
-            encode the result. Right for photographs; off, colours are computed with as they are stored, right for
-            colour scales.
-        selected: Only on selection. Change selected vertices and the vertices of selected faces only. The selection
-            stays as it is. None: derived from the mesh.
-        quality_mask: Quality as mask. Scale the effect at each vertex by its quality: 0 is no change, 1 the full
-            one, values outside are clamped.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        color: With alpha. None: derived from the mesh.
+        quality: The scalar value of the vertices. None: derived from the mesh.
+        texcoord: Of the vertices.
+        wedge_texcoord: Of the faces' corners, chart by chart: corners with the same vertex and the same texture
+            coordinate stay together.
+        custom: Custom scalars and points of the vertices.
+        custom_names: Which custom attributes: their names, separated by commas. Empty: all, but for source_vertex.
+        iterations: Steps of relaxation; each reaches a ring further. A whole number, 1 to 10000.
+        strength: Share of each step that is taken: 1 replaces a value by the mean around it. A number, 1e-06 to 1.
+        operator: Weights of the neighbours, from the geometry. Delaunay cotangents: means in the strict sense, that
+            keep linear functions on planes. Cotangents: those of the paper, which may be negative on bad triangles. The
+            umbrella ignores geometry.
+        corner_angle: Degrees: where the boundary turns by more than this, values are kept. A number, 0 to 180.
+        keep_outline: Keep texture coordinates on seams and boundaries as they are, so that charts keep their outline in
+            the picture. Off: they are relaxed along the outline, both sides of a seam alike.
+        linear_light: Decode colours (sRGB) to amounts of light before computing with them, and encode the result. Right
+            for photographs; off, colours are computed with as they are stored, right for colour scales.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        features: Edges that are not smoothed across: none; those where the normals of the two faces differ by more than
+            the feature angle; those not marked as faux; those selected on their faces.
+        feature_angle: Degrees between the normals of two faces above which their edge is sharp. A number, 0.01 to
+            179.99.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Roy, Foufou, Koschan, Truchetet, Abidi, "Multiresolution Analysis for Irregular Meshes", SPIE Photonics
+            Technologies 2003.
     """
-    return apply(RelaxAttributesReport, ms, "apply_attributes_multires_relaxation", {
-        "color": color,
-        "quality": quality,
-        "texcoord": texcoord,
-        "wedge_texcoord": wedge_texcoord,
-        "custom": custom,
-        "custom_names": custom_names,
-        "iterations": iterations,
-        "strength": strength,
-        "operator": operator,
-        "corner_angle": corner_angle,
-        "keep_outline": keep_outline,
-        "linear_light": linear_light,
-        "selected": selected,
-        "quality_mask": quality_mask,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(RelaxAttributesReport, "apply_attributes_multires_relaxation", **locals())
 
 
+@also_flat(Pyramid)
 def filter_attributes(
-    ms: MeshSet,
-    *,
-    color: bool | None = None,
-    quality: bool | None = None,
-    linear_light: bool = False,
-    mode: Mode = "low pass",
-    gain: float = 2.0,
-    cutoff: float | None = None,
-    unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
-    finest: float | None = None,
-    coarsest: float | None = None,
-    softness: float = 0.0,
-    selected: bool | None = None,
-    quality_mask: bool = False,
-    scheme: Scheme = "Guskov",
-    operator: Operator = "second difference with flaps",
-    presmooth: float = 0.5,
-    grouping: Grouping = "independent sets",
-    storage: Storage = "double",
-    sets_per_level: int = 2,
-    level_ratio: float = 0.0,
-    base_vertices: int = 100,
-    length_weight: float = 0.1,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, color: bool | None = None, quality: bool | None = None, linear_light: bool = False,
+    mode: Mode = "low pass", gain: float = 2.0, cutoff: float | None = None,
+    unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength", finest: float | None = None,
+    coarsest: float | None = None, softness: float = 0.0, selected: bool | None = None, quality_mask: bool = False,
+    pyramid: Pyramid | None = None,
 ) -> FilterAttributesReport:
     """Low pass, stop band or enhancement of vertex colour or quality by scale, through the pyramid of the surface.
 
-    The geometry stays as it is.  See  Roy, Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for
-    Irregular Meshes" , SPIE Photonics Technologies 2003. See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal
-    Processing for Meshes" , SIGGRAPH 1999.
+    The geometry stays as it is.
 
     The filter apply_attributes_multires_band, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        color: Vertex colour. With alpha. None: derived from the mesh.
-        quality: Vertex quality. The scalar value of the vertices. None: derived from the mesh.
-        linear_light: Colours as light. Decode colours (sRGB) to amounts of light before computing with them, and
-            encode the result. Right for photographs; off, colours are computed with as they are stored, right for
-            colour scales.
-        mode: Mode. Low pass: remove everything finer than the cutoff. Stop band: remove what is between finest and
-            coarsest. Enhance: multiply it by the gain.
-        gain: Gain. For enhance: 1 changes nothing, 2 doubles the details of the band, 0 removes them. A number, 0
-            to 8.
-        cutoff: Cutoff. For low pass: everything finer than this is removed: shorter waves, lower levels, levels
-            with more vertices. None: derived from the mesh. A number, at least 0.
-        unit: Unit. What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the
-            finest a mesh can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the
-            diagonal of the bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the
-            level has. If you change only the unit, the default limits are converted.
-        finest: Finest. Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. None:
-            derived from the mesh. A number, at least 0.
-        coarsest: Coarsest. Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices.
-            None: derived from the mesh. A number, at least 0.
-        softness: Softness. Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
-            10.
-        selected: Only on selection. Change selected vertices and the vertices of selected faces only. The selection
-            stays as it is. None: derived from the mesh.
-        quality_mask: Quality as mask. Scale the effect at each vertex by its quality: 0 is no change, 1 the full
-            one, values outside are clamped.
-        scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
-            structure follows when coarse structure is changed.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
-            noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
-        grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
-            neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
-        storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
-            millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
-            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
-        level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
-            makes every vertex a level of its own. A number, 0 to 0.99.
-        base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
-        length_weight: Even spacing. Weight of edge length against the quadric error when vertices are chosen: 0
-            keeps vertices where the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        color: With alpha. None: derived from the mesh.
+        quality: The scalar value of the vertices. None: derived from the mesh.
+        linear_light: Decode colours (sRGB) to amounts of light before computing with them, and encode the result. Right
+            for photographs; off, colours are computed with as they are stored, right for colour scales.
+        mode: Low pass: remove everything finer than the cutoff. Stop band: remove what is between finest and coarsest.
+            Enhance: multiply it by the gain.
+        gain: For enhance: 1 changes nothing, 2 doubles the details of the band, 0 removes them. A number, 0 to 8.
+        cutoff: For low pass: everything finer than this is removed: shorter waves, lower levels, levels with more
+            vertices. A number, at least 0. None: derived from the mesh.
+        unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
+            can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. If you
+            change only the unit, the default limits are converted.
+        finest: Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. A number, at least
+            0. None: derived from the mesh.
+        coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
+            least 0. None: derived from the mesh.
+        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Roy, Foufou, Koschan, Truchetet, Abidi, "Multiresolution Analysis for Irregular Meshes", SPIE Photonics
+            Technologies 2003.
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
     """
-    return apply(FilterAttributesReport, ms, "apply_attributes_multires_band", {
-        "color": color,
-        "quality": quality,
-        "linear_light": linear_light,
-        "mode": mode,
-        "gain": gain,
-        "cutoff": cutoff,
-        "unit": unit,
-        "finest": finest,
-        "coarsest": coarsest,
-        "softness": softness,
-        "selected": selected,
-        "quality_mask": quality_mask,
-        "scheme": scheme,
-        "operator": operator,
-        "presmooth": presmooth,
-        "grouping": grouping,
-        "storage": storage,
-        "sets_per_level": sets_per_level,
-        "level_ratio": level_ratio,
-        "base_vertices": base_vertices,
-        "length_weight": length_weight,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(FilterAttributesReport, "apply_attributes_multires_band", **locals())
 
 
+@also_flat(Pyramid)
 def filter_custom_attributes(
-    ms: MeshSet,
-    *,
-    custom_names: str = "",
-    mode: Mode = "low pass",
-    gain: float = 2.0,
-    cutoff: float | None = None,
-    unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
-    finest: float | None = None,
-    coarsest: float | None = None,
-    softness: float = 0.0,
-    selected: bool | None = None,
-    quality_mask: bool = False,
-    scheme: Scheme = "Guskov",
-    operator: Operator = "second difference with flaps",
-    presmooth: float = 0.5,
-    grouping: Grouping = "independent sets",
-    storage: Storage = "double",
-    sets_per_level: int = 2,
-    level_ratio: float = 0.0,
-    base_vertices: int = 100,
-    length_weight: float = 0.1,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, custom_names: str = "", mode: Mode = "low pass", gain: float = 2.0, cutoff: float | None = None,
+    unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength", finest: float | None = None,
+    coarsest: float | None = None, softness: float = 0.0, selected: bool | None = None, quality_mask: bool = False,
+    pyramid: Pyramid | None = None,
 ) -> FilterCustomAttributesReport:
-    """Low pass, stop band or enhancement of custom scalars and points of the vertices by scale, through the pyramid
-    of the surface.
+    """Low pass, stop band or enhancement of custom scalars and points of the vertices by scale, through the pyramid of
+    the surface.
 
-    The geometry stays as it is.  See  Roy, Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for
-    Irregular Meshes" , SPIE Photonics Technologies 2003. See  Guskov, Sweldens, Schröder ,  "Multiresolution Signal
-    Processing for Meshes" , SIGGRAPH 1999.
+    The geometry stays as it is.
 
     The filter apply_attributes_multires_band_custom, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        custom_names: Names of custom attributes. Which custom attributes: their names, separated by commas. Empty:
-            all, but for source_vertex.
-        mode: Mode. Low pass: remove everything finer than the cutoff. Stop band: remove what is between finest and
-            coarsest. Enhance: multiply it by the gain.
-        gain: Gain. For enhance: 1 changes nothing, 2 doubles the details of the band, 0 removes them. A number, 0
-            to 8.
-        cutoff: Cutoff. For low pass: everything finer than this is removed: shorter waves, lower levels, levels
-            with more vertices. None: derived from the mesh. A number, at least 0.
-        unit: Unit. What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the
-            finest a mesh can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the
-            diagonal of the bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the
-            level has. If you change only the unit, the default limits are converted.
-        finest: Finest. Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. None:
-            derived from the mesh. A number, at least 0.
-        coarsest: Coarsest. Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices.
-            None: derived from the mesh. A number, at least 0.
-        softness: Softness. Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
-            10.
-        selected: Only on selection. Change selected vertices and the vertices of selected faces only. The selection
-            stays as it is. None: derived from the mesh.
-        quality_mask: Quality as mask. Scale the effect at each vertex by its quality: 0 is no change, 1 the full
-            one, values outside are clamped.
-        scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
-            structure follows when coarse structure is changed.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
-            noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
-        grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
-            neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
-        storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
-            millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
-            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
-        level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
-            makes every vertex a level of its own. A number, 0 to 0.99.
-        base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
-        length_weight: Even spacing. Weight of edge length against the quadric error when vertices are chosen: 0
-            keeps vertices where the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        custom_names: Which custom attributes: their names, separated by commas. Empty: all, but for source_vertex.
+        mode: Low pass: remove everything finer than the cutoff. Stop band: remove what is between finest and coarsest.
+            Enhance: multiply it by the gain.
+        gain: For enhance: 1 changes nothing, 2 doubles the details of the band, 0 removes them. A number, 0 to 8.
+        cutoff: For low pass: everything finer than this is removed: shorter waves, lower levels, levels with more
+            vertices. A number, at least 0. None: derived from the mesh.
+        unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
+            can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. If you
+            change only the unit, the default limits are converted.
+        finest: Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. A number, at least
+            0. None: derived from the mesh.
+        coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
+            least 0. None: derived from the mesh.
+        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Roy, Foufou, Koschan, Truchetet, Abidi, "Multiresolution Analysis for Irregular Meshes", SPIE Photonics
+            Technologies 2003.
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
     """
-    return apply(FilterCustomAttributesReport, ms, "apply_attributes_multires_band_custom", {
-        "custom_names": custom_names,
-        "mode": mode,
-        "gain": gain,
-        "cutoff": cutoff,
-        "unit": unit,
-        "finest": finest,
-        "coarsest": coarsest,
-        "softness": softness,
-        "selected": selected,
-        "quality_mask": quality_mask,
-        "scheme": scheme,
-        "operator": operator,
-        "presmooth": presmooth,
-        "grouping": grouping,
-        "storage": storage,
-        "sets_per_level": sets_per_level,
-        "level_ratio": level_ratio,
-        "base_vertices": base_vertices,
-        "length_weight": length_weight,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(FilterCustomAttributesReport, "apply_attributes_multires_band_custom", **locals())
 
 
+@also_flat(Pyramid)
 def denoise_attributes(
-    ms: MeshSet,
-    *,
-    color: bool | None = None,
-    quality: bool | None = None,
-    custom: bool = False,
-    custom_names: str = "",
-    linear_light: bool = False,
-    rule: Literal["soft", "hard"] = "soft",
-    automatic: bool = True,
-    strength: float = 1.0,
-    threshold: float = 0.0,
-    finest_level: int = 0,
-    coarsest_level: int = 1000000000,
-    selected: bool | None = None,
-    quality_mask: bool = False,
-    scheme: Scheme = "Guskov",
-    operator: Operator = "second difference with flaps",
-    presmooth: float = 0.5,
-    grouping: Grouping = "independent sets",
-    storage: Storage = "double",
-    sets_per_level: int = 1,
-    level_ratio: float = 0.0,
-    base_vertices: int = 100,
-    length_weight: float = 0.1,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, color: bool | None = None, quality: bool | None = None, custom: bool = False,
+    custom_names: str = "", linear_light: bool = False, rule: Literal["soft", "hard"] = "soft", automatic: bool = True,
+    strength: float = 1.0, threshold: float = 0.0, finest_level: int = 0, coarsest_level: int = 1000000000,
+    selected: bool | None = None, quality_mask: bool = False, pyramid: Pyramid | None = None,
 ) -> DenoiseAttributesReport:
-    """Removes noise from vertex colour, quality or custom attributes by thresholding their details, without a
-    parameter to set; the geometry stays as it is.
+    """Removes noise from vertex colour, quality or custom attributes by thresholding their details, without a parameter
+    to set; the geometry stays as it is.
 
     The report says how much noise was found at each level, the threshold used and the share of details that went.
-    See  Roy, Foufou, Koschan, Truchetet, Abidi ,  "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics
-    Technologies 2003.
 
     The filter apply_attributes_multires_denoise, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        color: Vertex colour. With alpha. None: derived from the mesh.
-        quality: Vertex quality. The scalar value of the vertices. None: derived from the mesh.
-        custom: Custom attributes. Custom scalars and points of the vertices.
-        custom_names: Names of custom attributes. Which custom attributes: their names, separated by commas. Empty:
-            all, but for source_vertex.
-        linear_light: Colours as light. Decode colours (sRGB) to amounts of light before computing with them, and
-            encode the result. Right for photographs; off, colours are computed with as they are stored, right for
-            colour scales.
-        rule: Rule. Soft: details up to the threshold go, all others become shorter by it. Hard: details up to the
-            threshold go, the others stay.
-        automatic: Automatic threshold. A threshold for each level from the noise found in the attribute.
-        strength: Strength. Factor for the automatic threshold: 1 removes the noise found. A number, 0 to 100.
-        threshold: Threshold value. If it is not automatic: the length up to which details are dropped, in units of
-            the attribute, for colours of 255. A number, at least 0.
-        finest_level: Finest level. First level that is denoised, 0 is the finest. A whole number, at least 0.
-        coarsest_level: Coarsest level. Levels up to, but not with, this one are denoised. A whole number, at least
-            1.
-        selected: Only on selection. Change selected vertices and the vertices of selected faces only. The selection
-            stays as it is. None: derived from the mesh.
-        quality_mask: Quality as mask. Scale the effect at each vertex by its quality: 0 is no change, 1 the full
-            one, values outside are clamped.
-        scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
-            structure follows when coarse structure is changed.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
-            noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
-        grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
-            neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
-        storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
-            millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
-            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
-        level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
-            makes every vertex a level of its own. A number, 0 to 0.99.
-        base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
-        length_weight: Even spacing. Weight of edge length against the quadric error when vertices are chosen: 0
-            keeps vertices where the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        color: With alpha. None: derived from the mesh.
+        quality: The scalar value of the vertices. None: derived from the mesh.
+        custom: Custom scalars and points of the vertices.
+        custom_names: Which custom attributes: their names, separated by commas. Empty: all, but for source_vertex.
+        linear_light: Decode colours (sRGB) to amounts of light before computing with them, and encode the result. Right
+            for photographs; off, colours are computed with as they are stored, right for colour scales.
+        rule: Soft: details up to the threshold go, all others become shorter by it. Hard: details up to the threshold
+            go, the others stay.
+        automatic: A threshold for each level from the noise found in the attribute.
+        strength: Factor for the automatic threshold: 1 removes the noise found. A number, 0 to 100.
+        threshold: If it is not automatic: the length up to which details are dropped, in units of the attribute, for
+            colours of 255. A number, at least 0.
+        finest_level: First level that is denoised, 0 is the finest. A whole number, at least 0.
+        coarsest_level: Levels up to, but not with, this one are denoised. A whole number, at least 1.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Roy, Foufou, Koschan, Truchetet, Abidi, "Multiresolution Analysis for Irregular Meshes", SPIE Photonics
+            Technologies 2003.
     """
-    return apply(DenoiseAttributesReport, ms, "apply_attributes_multires_denoise", {
-        "color": color,
-        "quality": quality,
-        "custom": custom,
-        "custom_names": custom_names,
-        "linear_light": linear_light,
-        "rule": rule,
-        "automatic": automatic,
-        "strength": strength,
-        "threshold": threshold,
-        "finest_level": finest_level,
-        "coarsest_level": coarsest_level,
-        "selected": selected,
-        "quality_mask": quality_mask,
-        "scheme": scheme,
-        "operator": operator,
-        "presmooth": presmooth,
-        "grouping": grouping,
-        "storage": storage,
-        "sets_per_level": sets_per_level,
-        "level_ratio": level_ratio,
-        "base_vertices": base_vertices,
-        "length_weight": length_weight,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(DenoiseAttributesReport, "apply_attributes_multires_denoise", **locals())
 
 
+@also_flat(Pyramid)
 def generate_texcoord(
-    ms: MeshSet,
-    *,
-    projection: Literal["cylindrical", "spherical", "planar", "existing"] = "cylindrical",
-    axis: Literal["principal", "x", "y", "z"] = "principal",
-    coarse_vertices: int = 1000,
-    scheme: Scheme = "Guskov",
-    operator: Operator = "second difference with flaps",
-    presmooth: float = 0.5,
-    grouping: Grouping = "independent sets",
-    storage: Storage = "double",
-    sets_per_level: int = 2,
-    level_ratio: float = 0.0,
-    base_vertices: int = 100,
-    length_weight: float = 0.1,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, projection: Literal["cylindrical", "spherical", "planar", "existing"] = "cylindrical",
+    axis: Literal["principal", "x", "y", "z"] = "principal", coarse_vertices: int = 1000,
+    pyramid: Pyramid | None = None,
 ) -> GenerateTexcoordReport:
-    """Projects a coarse level of the pyramid to a cylinder, a sphere or a plane and subdivides its texture
-    coordinates to the finest level: they vary smoothly however rough the surface is.
+    """Projects a coarse level of the pyramid to a cylinder, a sphere or a plane and subdivides its texture coordinates
+    to the finest level: they vary smoothly however rough the surface is.
 
-    Makes vertex and wedge texture coordinates; wedges go on beyond 1 where a face crosses the seam.  See  Guskov,
-    Sweldens, Schröder ,  "Multiresolution Signal Processing for Meshes" , SIGGRAPH 1999.
+    Makes vertex and wedge texture coordinates; wedges go on beyond 1 where a face crosses the seam.
 
     The filter generate_multires_texcoord, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        projection: Projection. Where the coarse level gets its coordinates from: a cylinder or sphere about the
-            axis, the plane across it, or the texture coordinates its vertices have.
-        axis: Axis. Axis of the projection, through the centroid. Principal: along the longest extent of the shape,
-            for a planar projection along the shortest.
-        coarse_vertices: Coarse vertices. The first level with so many vertices or fewer is the one that is
-            projected; all finer ones follow smoothly. More follow the shape more closely, fewer vary more smoothly.
-            A whole number, at least 1.
-        scheme: Scheme. Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine
-            structure follows when coarse structure is changed.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        presmooth: Presmoothing. Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine
-            noise out of coarse levels; 0 is what the papers do. A number, 0 to 1.
-        grouping: Levels. Independent sets: each level removes about a quarter of the vertices, none of them
-            neighbours (Roy). Sequential: one vertex after the other, cheapest first (Guskov).
-        storage: Storage. How the pyramid keeps weights and details. Float takes half the memory, for meshes of many
-            millions of vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.
-        sets_per_level: Sets per level. Independent sets only: how many sets, a quarter of the vertices each, a
-            level removes. 2 separates bands best; 1 sees most of the noise. A whole number, 1 to 100.
-        level_ratio: Level ratio. Sequential only: share of its vertices that a level keeps, for example 0.8; 0
-            makes every vertex a level of its own. A number, 0 to 0.99.
-        base_vertices: Base vertices. Vertices at which the pyramid stops. A whole number, at least 4.
-        length_weight: Even spacing. Weight of edge length against the quadric error when vertices are chosen: 0
-            keeps vertices where the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        projection: Where the coarse level gets its coordinates from: a cylinder or sphere about the axis, the plane
+            across it, or the texture coordinates its vertices have.
+        axis: Axis of the projection, through the centroid. Principal: along the longest extent of the shape, for a
+            planar projection along the shortest.
+        coarse_vertices: The first level with so many vertices or fewer is the one that is projected; all finer ones
+            follow smoothly. More follow the shape more closely, fewer vary more smoothly. A whole number, at least 1.
+        pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
     """
-    return apply(GenerateTexcoordReport, ms, "generate_multires_texcoord", {
-        "projection": projection,
-        "axis": axis,
-        "coarse_vertices": coarse_vertices,
-        "scheme": scheme,
-        "operator": operator,
-        "presmooth": presmooth,
-        "grouping": grouping,
-        "storage": storage,
-        "sets_per_level": sets_per_level,
-        "level_ratio": level_ratio,
-        "base_vertices": base_vertices,
-        "length_weight": length_weight,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(GenerateTexcoordReport, "generate_multires_texcoord", **locals())
 
 
 def adaptive_reconstruction(
-    ms: MeshSet,
-    *,
-    target: Literal["threshold", "faces", "vertices", "RMS distance", "largest distance"] = "threshold",
-    unit: Literal["mesh units", "percent"] = "percent",
-    faces: int | None = None,
-    vertices: int | None = None,
-    error: float = 0.1,
-    use_geometry: bool = True,
-    geometry_threshold: float = 0.05,
-    use_color: bool = False,
-    color_threshold: float = 16.0,
-    use_quality: bool = False,
-    quality_threshold: float = 1.0,
-    use_texcoord: bool = False,
-    texcoord_threshold: float = 0.01,
-    use_normal: bool = False,
-    normal_threshold: float = 10.0,
-    criterion: Literal["area error", "local error", "detail"] = "area error",
-    region_of_interest: bool = False,
-    fit: bool = False,
-    measure: bool = True,
-    band_gain: float = 1.0,
-    finest: float | None = None,
-    coarsest: float | None = None,
-    operator: Operator = "cotangent Delaunay",
-    base_vertices: int = 100,
-    normal_limit: float = 60.0,
-    features: Features = "none",
-    feature_angle: float = 40.0,
+    ms: MeshSet, *, target: Literal["threshold", "faces", "vertices", "RMS distance", "largest distance"] = "threshold",
+    unit: Literal["mesh units", "percent"] = "percent", faces: int | None = None, vertices: int | None = None,
+    error: float = 0.1, use_geometry: bool = True, geometry_threshold: float = 0.05, use_color: bool = False,
+    color_threshold: float = 16.0, use_quality: bool = False, quality_threshold: float = 1.0,
+    use_texcoord: bool = False, texcoord_threshold: float = 0.01, use_normal: bool = False,
+    normal_threshold: float = 10.0, criterion: Literal["area error", "local error", "detail"] = "area error",
+    region_of_interest: bool = False, fit: bool = False, measure: bool = True, band_gain: float = 1.0,
+    finest: float | None = None, coarsest: float | None = None, operator: Operator = "cotangent Delaunay",
+    base_vertices: int = 100, normal_limit: float = 60.0, features: Features = "none", feature_angle: float = 40.0,
 ) -> AdaptiveReconstructionReport:
     """Makes a new layer that holds only the vertices whose detail exceeds a threshold, and all they depend on: many
     where the surface, its colour, quality or texture changes, few elsewhere.
 
     The threshold can also be found for a number of faces or vertices or an error bound. The custom vertex attribute
-    source_vertex  holds the index of each vertex in the input.  See  Roy, Foufou, Koschan, Truchetet, Abidi ,
-    "Multiresolution Analysis for Irregular Meshes" , SPIE Photonics Technologies 2003.
+    source_vertex holds the index of each vertex in the input.
 
     The filter generate_multires_adaptive_reconstruction, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        target: Target. What decides how many vertices are kept: the thresholds as given; a number of faces or
-            vertices; or a bound on the measured two-sided distance to the input, with as few vertices as are found.
-        unit: Unit of lengths. Of the threshold of shape and of the error bound: mesh units, or percent of the
-            diagonal of the bounding box (1 is 1 %).
-        faces: Faces. Target faces: at most so many faces; the base may have more. None: derived from the mesh. A
-            whole number, at least 0.
-        vertices: Vertices. Target vertices: so many, not counting those in no face. None: derived from the mesh. A
-            whole number, at least 0.
-        error: Error bound. Targets RMS distance and largest distance: the bound, in the unit of lengths. A number,
-            at least 0.
-        use_geometry: Use shape. Keep vertices for the sake of their shape.
-        geometry_threshold: Threshold of shape. Vertices whose detail is at least this long are kept: in the unit of
-            lengths. 0 keeps all. With a target other than the threshold it only says how the kinds of detail
-            compare. A number, at least 0.
-        use_color: Use colour. Keep vertices for the sake of their colour.
-        color_threshold: Threshold of colour. Vertices whose detail is at least this long are kept: length of the
-            difference in red, green, blue and alpha, 0 to 255. 0 keeps all. With a target other than the threshold
-            it only says how the kinds of detail compare. A number, at least 0.
-        use_quality: Use quality. Keep vertices for the sake of their quality.
-        quality_threshold: Threshold of quality. Vertices whose detail is at least this long are kept: in the
-            measure of the vertex quality. 0 keeps all. With a target other than the threshold it only says how the
-            kinds of detail compare. A number, at least 0.
-        use_texcoord: Use texture coordinates. Keep vertices for the sake of their texture coordinates.
-        texcoord_threshold: Threshold of texture coordinates. Vertices whose detail is at least this long are kept:
-            length of the difference in u and v, of wedges if there are any, of vertices otherwise. 0 keeps all.
-            With a target other than the threshold it only says how the kinds of detail compare. A number, at least
-            0.
-        use_normal: Use normals. Keep vertices for the sake of their normals.
-        normal_threshold: Threshold of normals. Vertices whose detail is at least this long are kept: degrees. 0
-            keeps all. With a target other than the threshold it only says how the kinds of detail compare. A
-            number, at least 0.
-        criterion: Detail of shape. Area error: what removing the vertex adds to the RMS distance of the surfaces;
-            the fewest faces for an RMS distance. Local error: the distance it adds at the vertex, whatever the
-            area; keeps small features. Detail: distance to where relaxation predicts the vertex (Roy).
-        region_of_interest: Selection in full. Keep selected vertices and faces as they are, and level of detail by
-            the thresholds elsewhere.
-        fit: Fit positions. Move the vertices kept to where they fit the input best. The boundary and the selection
-            kept in full stay where they are.
-        measure: Measure the distance. Report the two-sided distance to the input.
-        band_gain: Gain of a band. Applied to the input first: 0 removes the details between the two wavelengths
-            below, 1 changes nothing. A number, -1000 to 1000.
-        finest: Finest. Fine limit of the band: wavelength in mesh units. None: derived from the mesh. A number, at
+        target: What decides how many vertices are kept: the thresholds as given; a number of faces or vertices; or a
+            bound on the measured two-sided distance to the input, with as few vertices as are found.
+        unit: Of the threshold of shape and of the error bound: mesh units, or percent of the diagonal of the bounding
+            box (1 is 1 %).
+        faces: Target faces: at most so many faces; the base may have more. A whole number, at least 0. None: derived
+            from the mesh.
+        vertices: Target vertices: so many, not counting those in no face. A whole number, at least 0. None: derived
+            from the mesh.
+        error: Targets RMS distance and largest distance: the bound, in the unit of lengths. A number, at least 0.
+        use_geometry: Keep vertices for the sake of their shape.
+        geometry_threshold: Vertices whose detail is at least this long are kept: in the unit of lengths. 0 keeps all.
+            With a target other than the threshold it only says how the kinds of detail compare. A number, at least 0.
+        use_color: Keep vertices for the sake of their colour.
+        color_threshold: Vertices whose detail is at least this long are kept: length of the difference in red, green,
+            blue and alpha, 0 to 255. 0 keeps all. With a target other than the threshold it only says how the kinds of
+            detail compare. A number, at least 0.
+        use_quality: Keep vertices for the sake of their quality.
+        quality_threshold: Vertices whose detail is at least this long are kept: in the measure of the vertex quality. 0
+            keeps all. With a target other than the threshold it only says how the kinds of detail compare. A number, at
             least 0.
-        coarsest: Coarsest. Coarse limit of the band: wavelength in mesh units. None: derived from the mesh. A
-            number, at least 0.
-        operator: Operator. Relaxation operator: how a vertex is predicted from its neighbours. Second differences
-            keep shape best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets
-            vertices drift.
-        base_vertices: Base vertices. Vertices of the base mesh. A whole number, at least 4.
-        normal_limit: Normal limit. Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
-        features: Sharp edges. Edges that are not smoothed across: none; those where the normals of the two faces
-            differ by more than the feature angle; those not marked as faux; those selected on their faces.
-        feature_angle: Feature angle. Degrees between the normals of two faces above which their edge is sharp. A
-            number, 0.01 to 179.99.
+        use_texcoord: Keep vertices for the sake of their texture coordinates.
+        texcoord_threshold: Vertices whose detail is at least this long are kept: length of the difference in u and v,
+            of wedges if there are any, of vertices otherwise. 0 keeps all. With a target other than the threshold it
+            only says how the kinds of detail compare. A number, at least 0.
+        use_normal: Keep vertices for the sake of their normals.
+        normal_threshold: Vertices whose detail is at least this long are kept: degrees. 0 keeps all. With a target
+            other than the threshold it only says how the kinds of detail compare. A number, at least 0.
+        criterion: Area error: what removing the vertex adds to the RMS distance of the surfaces; the fewest faces for
+            an RMS distance. Local error: the distance it adds at the vertex, whatever the area; keeps small features.
+            Detail: distance to where relaxation predicts the vertex (Roy).
+        region_of_interest: Keep selected vertices and faces as they are, and level of detail by the thresholds
+            elsewhere.
+        fit: Move the vertices kept to where they fit the input best. The boundary and the selection kept in full stay
+            where they are.
+        measure: Report the two-sided distance to the input.
+        band_gain: Applied to the input first: 0 removes the details between the two wavelengths below, 1 changes
+            nothing. A number, -1000 to 1000.
+        finest: Fine limit of the band: wavelength in mesh units. A number, at least 0. None: derived from the mesh.
+        coarsest: Coarse limit of the band: wavelength in mesh units. A number, at least 0. None: derived from the mesh.
+        operator: Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape
+            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+        base_vertices: Vertices of the base mesh. A whole number, at least 4.
+        normal_limit: Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
+        features: Edges that are not smoothed across: none; those where the normals of the two faces differ by more than
+            the feature angle; those not marked as faux; those selected on their faces.
+        feature_angle: Degrees between the normals of two faces above which their edge is sharp. A number, 0.01 to
+            179.99.
 
     Raises:
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Roy, Foufou, Koschan, Truchetet, Abidi, "Multiresolution Analysis for Irregular Meshes", SPIE Photonics
+            Technologies 2003.
     """
-    return apply(AdaptiveReconstructionReport, ms, "generate_multires_adaptive_reconstruction", {
-        "target": target,
-        "unit": unit,
-        "faces": faces,
-        "vertices": vertices,
-        "error": error,
-        "use_geometry": use_geometry,
-        "geometry_threshold": geometry_threshold,
-        "use_color": use_color,
-        "color_threshold": color_threshold,
-        "use_quality": use_quality,
-        "quality_threshold": quality_threshold,
-        "use_texcoord": use_texcoord,
-        "texcoord_threshold": texcoord_threshold,
-        "use_normal": use_normal,
-        "normal_threshold": normal_threshold,
-        "criterion": criterion,
-        "region_of_interest": region_of_interest,
-        "fit": fit,
-        "measure": measure,
-        "band_gain": band_gain,
-        "finest": finest,
-        "coarsest": coarsest,
-        "operator": operator,
-        "base_vertices": base_vertices,
-        "normal_limit": normal_limit,
-        "features": features,
-        "feature_angle": feature_angle,
-    })
+    return apply(AdaptiveReconstructionReport, "generate_multires_adaptive_reconstruction", **locals())
+
+
+LIMITS: dict[str, dict[str, tuple[float, float]]] = {
+    "Pyramid": {
+        "presmooth": (0, 1), "sets_per_level": (1, 100), "level_ratio": (0, 0.99), "length_weight": (0, 1000),
+        "normal_limit": (1, 180), "feature_angle": (0.01, 179.99),
+    },
+    "detail_to_quality": {
+        "softness": (0, 10),
+    },
+    "low_pass": {
+        "softness": (0, 10),
+    },
+    "stop_band": {
+        "softness": (0, 10),
+    },
+    "enhance": {
+        "gain": (0, 10), "softness": (0, 10),
+    },
+    "equalizer": {
+        "gain_1": (0, 4), "gain_2": (0, 4), "gain_3": (0, 4), "gain_4": (0, 4), "gain_5": (0, 4), "gain_6": (0, 4),
+        "gain_7": (0, 4), "gain_8": (0, 4), "softness": (0, 10),
+    },
+    "unsharp": {
+        "xi": (0, 10), "iterations": (1, 10000), "feature_angle": (0.01, 179.99),
+    },
+    "denoise": {
+        "strength": (0, 4), "cycle_spins": (1, 64),
+    },
+    "relax_attributes": {
+        "iterations": (1, 10000), "strength": (1e-06, 1), "corner_angle": (0, 180), "feature_angle": (0.01, 179.99),
+    },
+    "filter_attributes": {
+        "gain": (0, 8), "softness": (0, 10),
+    },
+    "filter_custom_attributes": {
+        "gain": (0, 8), "softness": (0, 10),
+    },
+    "denoise_attributes": {
+        "strength": (0, 100),
+    },
+    "adaptive_reconstruction": {
+        "band_gain": (-1000, 1000), "normal_limit": (1, 180), "feature_angle": (0.01, 179.99),
+    },
+}
+"""Least and most of the numbers that have both, by function (or class) and parameter."""
