@@ -1,0 +1,143 @@
+#pragma once
+
+#include "base/array.h"
+#include "base/index.h"
+#include "base/parallel.h"
+#include "base/reduce.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <type_traits>
+
+namespace multires {
+
+struct GradientsOptions {
+    double tolerance = 1e-8;  ///< of |residual| / |first residual|, every channel
+    int most_steps = 200;
+};
+
+struct GradientsResult {
+    int steps = 0;
+    double residual = 0;  ///< |residual| / |first residual|, of the worst channel, as the recursion has it
+    bool converged = true;
+};
+
+namespace gradients_detail {
+
+/// One number a channel.
+template <int L, class Scalar>
+struct Sums {
+    std::array<Scalar, L> of{};
+    Sums& operator+=(const Sums& other) {
+        for (int c = 0; c < L; ++c) of[c] += other.of[c];
+        return *this;
+    }
+};
+
+}  // namespace gradients_detail
+
+/// Preconditioned conjugate gradients (Hestenes and Stiefel 1952) for L independent right-hand sides at once, or, for
+/// complex symmetric systems, conjugate orthogonal conjugate gradients (van der Vorst and Melissen 1990), which are the
+/// same with products that are not conjugated. Solves A x = r for the change x of a first guess.
+///
+/// Vectors are arrays of rows; a row holds L real parts and, if Z, L imaginary parts after them.
+/// @param apply         apply(p, q): q = A p, Array<double>
+/// @param precondition  precondition(r, z): z = B r with B symmetric as A is; z is an Array<Number>
+/// @param add           add(i, change): row i of the solution += L (2 L) numbers
+/// @param r             the first residual; the last one afterwards
+/// @param tick          tick(step, residual) once a step; may throw
+/// Memory: two vectors of doubles and one of Number, beside r. Same bits for any number of threads.
+template <int L, bool Z, class Number, class Apply, class Precondition, class Add, class Tick>
+GradientsResult conjugate_gradients(Array<double>& r, const GradientsOptions& options, const Apply& apply,
+                                    const Precondition& precondition, const Add& add, const Tick& tick) {
+    using Scalar = std::conditional_t<Z, std::complex<double>, double>;
+    using Dots = gradients_detail::Sums<L, Scalar>;
+    using Norms = gradients_detail::Sums<L, double>;
+    constexpr int stride = Z ? 2 * L : L;
+    const std::size_t rows = r.size() / stride;
+    const auto get = [](const auto& v, std::size_t i, int c) -> Scalar {
+        if constexpr (Z) return {static_cast<double>(v[i * stride + c]), static_cast<double>(v[i * stride + L + c])};
+        if constexpr (!Z) return static_cast<double>(v[i * stride + c]);
+    };
+    const auto product = [](const Scalar& a, const Scalar& b) -> Scalar {
+        if constexpr (Z) return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+        if constexpr (!Z) return a * b;
+    };
+    const auto dot = [&](const auto& a, const auto& b) {
+        return chunked_reduce<Dots>(rows, [&](std::size_t begin, std::size_t end) {
+            Dots sum;
+            for (std::size_t i = begin; i < end; ++i)
+                for (int c = 0; c < L; ++c) sum.of[c] += product(get(a, i, c), get(b, i, c));
+            return sum;
+        });
+    };
+    const auto ratio = [](const Scalar& a, const Scalar& b) {
+        const Scalar q = b == Scalar(0) ? Scalar(0) : a / b;
+        return std::isfinite(std::abs(q)) ? q : Scalar(0);
+    };
+
+    const Norms first = chunked_reduce<Norms>(rows, [&](std::size_t begin, std::size_t end) {
+        Norms sum;
+        for (std::size_t i = begin; i < end; ++i)
+            for (int c = 0; c < L; ++c) sum.of[c] += std::norm(get(r, i, c));
+        return sum;
+    });
+    GradientsResult result;
+    Array<double> p(r.size()), q(r.size());
+    Array<Number> z(r.size());
+    Dots rz;
+    const auto worst = [&](const Norms& now) {
+        double most = 0;
+        for (int c = 0; c < L; ++c)
+            if (first.of[c] > 0) most = std::max(most, std::sqrt(now.of[c] / first.of[c]));
+        return most;
+    };
+    result.residual = worst(first);
+    for (; result.residual > options.tolerance && result.steps < options.most_steps; ++result.steps) {
+        tick(result.steps, result.residual);
+        precondition(r, z);
+        const Dots next = dot(r, z);
+        std::array<Scalar, L> factor;
+        for (int c = 0; c < L; ++c) factor[c] = result.steps == 0 ? Scalar(0) : ratio(next.of[c], rz.of[c]);
+        rz = next;
+        const bool start = result.steps == 0;
+        parallel_for(static_cast<Index>(rows), [&](Index i) {
+            const std::size_t row = static_cast<std::size_t>(i);
+            for (int c = 0; c < L; ++c) {
+                const Scalar value = start ? get(z, row, c) : get(z, row, c) + product(factor[c], get(p, row, c));
+                p[row * stride + c] = std::real(value);
+                if constexpr (Z) p[row * stride + L + c] = std::imag(value);
+            }
+        });
+        apply(p, q);
+        const Dots pq = dot(p, q);
+        for (int c = 0; c < L; ++c) factor[c] = ratio(rz.of[c], pq.of[c]);
+        const Norms now = chunked_reduce<Norms>(rows, [&](std::size_t begin, std::size_t end) {
+            Norms sum;
+            for (std::size_t i = begin; i < end; ++i) {
+                std::array<double, stride> change;
+                for (int c = 0; c < L; ++c) {
+                    const Scalar step = product(factor[c], get(p, i, c));
+                    const Scalar left = get(r, i, c) - product(factor[c], get(q, i, c));
+                    change[c] = std::real(step);
+                    r[i * stride + c] = std::real(left);
+                    if constexpr (Z) change[L + c] = std::imag(step);
+                    if constexpr (Z) r[i * stride + L + c] = std::imag(left);
+                    sum.of[c] += std::norm(left);
+                }
+                add(static_cast<Index>(i), change.data());
+            }
+            return sum;
+        });
+        const double before = result.residual;
+        result.residual = worst(now);
+        if (!std::isfinite(result.residual) || (result.residual == before && result.steps > 0)) break;
+    }
+    result.converged = result.residual <= options.tolerance;
+    return result;
+}
+
+}  // namespace multires

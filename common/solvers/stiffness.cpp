@@ -1,0 +1,173 @@
+#include "solvers/stiffness.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace multires {
+namespace {
+
+/// What a face gives to its three edges (edge k is opposite to corner k), and its area.
+struct FaceWeights {
+    std::array<double, 3> cotangent;  ///< halved
+    double third;                     ///< of the area; negative: the face does not count
+};
+
+FaceWeights face_weights(const Mesh& mesh, const Face& f, double least_area) {
+    FaceWeights none{{0, 0, 0}, -1};
+    if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) return none;
+    const Vec3 &a = mesh.positions[f[0]], &b = mesh.positions[f[1]], &c = mesh.positions[f[2]];
+    const Vec3 ab = b - a, bc = c - b, ca = a - c;
+    const double longest = std::max({ab.squaredNorm(), bc.squaredNorm(), ca.squaredNorm()});
+    if (!(longest > 1e-280 && longest < 1e280)) return none;  // also what is not a number
+    const double s = 1 / std::sqrt(longest);                  // so that products of lengths neither overflow nor vanish
+    const Vec3 u = ab * s, v = bc * s, w = ca * s;
+    const double twice = u.cross(w).norm();
+    const double least = least_area * (u.squaredNorm() + v.squaredNorm() + w.squaredNorm());
+    const double scale = 0.5 / std::max(twice, least);
+    return {{-w.dot(u) * scale, -u.dot(v) * scale, -v.dot(w) * scale}, twice * longest / 6};
+}
+
+/// The faces around each vertex that count, in order: 3 x face + corner.
+struct Corners {
+    Array<Index> offset, corner;
+};
+
+Corners corners_of(const Mesh& mesh, const Array<FaceWeights>& weights) {
+    Corners c;
+    c.offset.assign(mesh.positions.size() + 1, 0);
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+        if (weights[f].third >= 0)
+            for (const Index v : mesh.faces[f]) ++c.offset[v + 1];
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) c.offset[v + 1] += c.offset[v];
+    c.corner.resize(c.offset.back());
+    Array<Index> next(c.offset.begin(), c.offset.end() - 1);
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f)
+        if (weights[f].third >= 0)
+            for (int k = 0; k < 3; ++k) c.corner[next[mesh.faces[f][k]]++] = static_cast<Index>(3 * f + k);
+    return c;
+}
+
+/// The entries of one row with the two edges of each of its faces, in order of the faces, equal columns joined.
+class RowMaker {
+public:
+    RowMaker(const Mesh& mesh, const Array<FaceWeights>& weights, const Corners& corners)
+        : mesh_(mesh), weights_(weights), corners_(corners) {}
+
+    const std::vector<std::pair<Index, double>>& row(Index v) {
+        entries_.clear();
+        for (Index k = corners_.offset[v]; k < corners_.offset[v + 1]; ++k) {
+            const Index face = corners_.corner[k] / 3, at = corners_.corner[k] % 3;
+            const Index next = (at + 1) % 3, last = (at + 2) % 3;
+            entries_.emplace_back(mesh_.faces[face][next], weights_[face].cotangent[last]);
+            entries_.emplace_back(mesh_.faces[face][last], weights_[face].cotangent[next]);
+        }
+        // Stable, so that both rows of an edge add up its faces in the same order.
+        const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
+        if (entries_.size() < 64) {
+            insertion_sort();
+        } else {
+            std::stable_sort(entries_.begin(), entries_.end(), less);
+        }
+        std::size_t kept = 0;
+        for (std::size_t k = 0; k < entries_.size(); ++k) {
+            if (kept > 0 && entries_[kept - 1].first == entries_[k].first) {
+                entries_[kept - 1].second += entries_[k].second;
+            } else {
+                entries_[kept++] = entries_[k];
+            }
+        }
+        entries_.resize(kept);
+        return entries_;
+    }
+
+private:
+    void insertion_sort() {
+        for (std::size_t k = 1; k < entries_.size(); ++k) {
+            const auto e = entries_[k];
+            std::size_t at = k;
+            for (; at > 0 && entries_[at - 1].first > e.first; --at) entries_[at] = entries_[at - 1];
+            entries_[at] = e;
+        }
+    }
+
+    const Mesh& mesh_;
+    const Array<FaceWeights>& weights_;
+    const Corners& corners_;
+    std::vector<std::pair<Index, double>> entries_;
+};
+
+}  // namespace
+
+Stiffness stiffness(const Mesh& mesh, const StiffnessOptions& options) {
+    const Index n = static_cast<Index>(mesh.positions.size());
+    Array<FaceWeights> weights(mesh.faces.size());
+    parallel_for(static_cast<Index>(mesh.faces.size()),
+                 [&](Index f) { weights[f] = face_weights(mesh, mesh.faces[f], options.least_area); });
+    const Corners corners = corners_of(mesh, weights);
+    Stiffness c;
+    c.mass.resize(n);
+    c.offset.resize(static_cast<std::size_t>(n) + 1);
+    // Rows are written with a stride of two entries a corner first, an upper bound, and moved together.
+    Array<Index> column(2 * corners.corner.size());
+    Array<double> weight(2 * corners.corner.size());
+    parallel_chunks(n, 4096, [&](Index begin, Index end) {
+        RowMaker maker(mesh, weights, corners);
+        for (Index v = begin; v < end; ++v) {
+            double mass = 0;
+            for (Index k = corners.offset[v]; k < corners.offset[v + 1]; ++k)
+                mass += weights[corners.corner[k] / 3].third;
+            c.mass[v] = mass;
+            std::size_t at = 2 * static_cast<std::size_t>(corners.offset[v]);
+            for (const auto& [j, w] : maker.row(v)) column[at] = j, weight[at++] = w;
+            c.offset[v + 1] = static_cast<Index>(at - 2 * static_cast<std::size_t>(corners.offset[v]));
+        }
+    });
+    c.offset[0] = 0;
+    for (Index v = 0; v < n; ++v) c.offset[v + 1] += c.offset[v];
+    c.column.resize(c.offset[n]);
+    c.weight.resize(c.offset[n]);
+    parallel_for(n, [&](Index v) {
+        const std::size_t from = 2 * static_cast<std::size_t>(corners.offset[v]);
+        const Index size = c.offset[v + 1] - c.offset[v];
+        std::copy_n(column.begin() + static_cast<std::ptrdiff_t>(from), size, c.column.begin() + c.offset[v]);
+        std::copy_n(weight.begin() + static_cast<std::ptrdiff_t>(from), size, c.weight.begin() + c.offset[v]);
+    });
+    return c;
+}
+
+void apply_stiffness(const Stiffness& c, const double* f, int width, double* out) {
+    parallel_for(c.rows(), [&](Index i) {
+        const double* const own = f + static_cast<std::size_t>(i) * width;
+        double* const to = out + static_cast<std::size_t>(i) * width;
+        std::fill_n(to, width, 0.0);
+        for (Index k = c.offset[i]; k < c.offset[i + 1]; ++k) {
+            const double* const other = f + static_cast<std::size_t>(c.column[k]) * width;
+            for (int w = 0; w < width; ++w) to[w] += c.weight[k] * (own[w] - other[w]);
+        }
+    });
+}
+
+Components components(const Stiffness& c) {
+    Components found;
+    found.of.assign(c.rows(), -1);
+    Array<Index> queue(c.rows());
+    for (Index first = 0; first < c.rows(); ++first) {
+        if (found.of[first] >= 0) continue;
+        std::size_t end = 0;
+        queue[end++] = first;
+        found.of[first] = found.count;
+        for (std::size_t at = 0; at < end; ++at)
+            for (Index k = c.offset[queue[at]]; k < c.offset[queue[at] + 1]; ++k) {
+                Index& other = found.of[c.column[k]];
+                if (other < 0) other = found.count, queue[end++] = c.column[k];
+            }
+        ++found.count;
+    }
+    return found;
+}
+
+}  // namespace multires

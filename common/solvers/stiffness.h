@@ -1,0 +1,56 @@
+#pragma once
+
+#include "base/array.h"
+#include "mesh/mesh.h"
+
+/// The two matrices that all linear systems on a mesh are made of.
+///
+/// C is the cotangent stiffness: f' C f is the Dirichlet energy, the integral of |grad f|^2 over the surface for the
+/// piecewise linear f. It is symmetric, positive semidefinite and its rows sum to 0; M is diagonal, the mass of a
+/// vertex is a third of the area of its faces (mesh units squared). Sign: M^-1 C is minus the Laplacian of
+/// operators/relaxation.h (up to that one's scale), so f - t M^-1 C f smooths and the eigenvalues of M^-1 C are squares
+/// of wave numbers.
+///
+/// Both are sums over faces, so edges of one face, of three or more, and faces of any orientation need no rule of their
+/// own. On an open boundary that gives natural conditions: nothing flows across the rim, and solutions meet it at a
+/// right angle. For positions this pulls the rim inwards; fix it or filter it apart if that is not wanted.
+///
+/// Negative off-diagonal entries (obtuse angles) are kept: clamping them would destroy linear precision, and they do
+/// not harm semidefiniteness. The matrix of one face is the Gram matrix of its edges divided by four times the area; an
+/// area below `least_area` is replaced by it, which leaves a Gram matrix, whatever the rounding.
+namespace multires {
+
+struct StiffnessOptions {
+    /// Faces with 2 area < this x (sum of squared edge lengths) count with this area. No unit; an equilateral triangle
+    /// has 0.29. Bounds the condition of slivers.
+    double least_area = 1e-7;
+};
+
+struct Stiffness {
+    Array<Index> offset{0};  ///< #V+1
+    Array<Index> column;     ///< #entries: the neighbours of each vertex, ascending, without itself
+    Array<double> weight;    ///< #entries: -C_ij, exactly symmetric; C f_i = sum_j weight_ij (f_i - f_j)
+    Array<double> mass;      ///< #V, mesh units squared
+
+    Index rows() const { return static_cast<Index>(mass.size()); }
+};
+
+/// @param mesh  indices in range. Faces that repeat an index, or have a corner that is not finite or an edge beyond
+/// what
+///              can be squared safely, count for nothing.
+/// Cost: linear, parallel; O(d log d) for a vertex of d faces. Same bits for any number of threads.
+Stiffness stiffness(const Mesh& mesh, const StiffnessOptions& options = {});
+
+/// M^-1-free product: out = C f for `width` interleaved channels. Constants give exactly 0.
+/// @param f, out  #V by width, not the same
+void apply_stiffness(const Stiffness& c, const double* f, int width, double* out);
+
+/// Number of the component of each vertex over the edges of C, from 0 in order of their first vertices; vertices
+/// without a neighbour are components of their own.
+struct Components {
+    Array<Index> of;  ///< #V
+    Index count = 0;
+};
+Components components(const Stiffness& c);
+
+}  // namespace multires

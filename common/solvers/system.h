@@ -1,0 +1,114 @@
+#pragma once
+
+#include "base/array.h"
+#include "base/progress.h"
+#include "mesh/mesh.h"
+#include "solvers/conjugate_gradients.h"
+#include "solvers/multigrid.h"
+#include "solvers/stiffness.h"
+
+#include <complex>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace multires {
+
+/// Values at vertices that somebody else owns: `width` interleaved channels, row-major.
+struct ConstRows {
+    const double* values = nullptr;
+    Index rows = 0;
+    int width = 0;
+
+    ConstRows(const Positions& p)
+        : values(p.empty() ? nullptr : p[0].data()), rows(static_cast<Index>(p.size())), width(3) {}
+    ConstRows(const struct Rows& r);
+    ConstRows(const Array<double>& v, int w) : values(v.data()), rows(static_cast<Index>(v.size() / w)), width(w) {}
+};
+
+/// The same, to be written.
+struct Rows {
+    double* values = nullptr;
+    Index rows = 0;
+    int width = 0;
+
+    Rows(Positions& p) : values(p.empty() ? nullptr : p[0].data()), rows(static_cast<Index>(p.size())), width(3) {}
+    Rows(Array<double>& v, int w) : values(v.data()), rows(static_cast<Index>(v.size() / w)), width(w) {}
+};
+
+inline ConstRows::ConstRows(const Rows& r) : values(r.values), rows(r.rows), width(r.width) {}
+
+struct SystemOptions {
+    StiffnessOptions stiffness;
+    std::vector<std::uint8_t> fixed;  ///< #V or empty: 1 for vertices whose values are given
+};
+
+struct SolveOptions {
+    double tolerance = 1e-8;  ///< of |residual| / |residual of the first guess|, every channel, in (0, 1)
+    int most_steps = 200;
+};
+
+/// One term of a rational filter.
+struct Term {
+    std::complex<double> pole = 1;    ///< z, Re z >= 0, not 0
+    std::complex<double> weight = 1;  ///< w
+};
+
+/// How a solve went.
+struct Solved {
+    int steps = 0;          ///< the most that a group of up to four channels took
+    double residual = 0;    ///< |residual| / |residual of the first guess|, of the worst channel
+    bool converged = true;  ///< false if most_steps, or rounding, came first
+    Index floating = 0;     ///< components without mass and without a fixed vertex: the mean of the first guess is kept
+    Index without_faces = 0;  ///< free vertices in no face that counts: these keep the first guess
+};
+
+/// Symmetric positive definite and complex symmetric systems on a mesh, for any mass and stiffness after one set-up.
+///
+///     const System system(mesh);
+///     Positions x = mesh.positions;
+///     system.low_pass(2 * pi / cutoff, mesh.positions, x);
+///
+/// Conjugate gradients, preconditioned by one V-cycle (Multigrid); below 300 vertices that is a direct solve by Eigen's
+/// SimplicialLDLT (SparseLU if complex). The number of steps hardly depends on the number of vertices.
+/// Set-up and a step are linear in #V. Memory: about 250 bytes a vertex, and 250 more while it solves.
+/// The same bits for any number of threads. Several solves at the same time are allowed.
+class System {
+public:
+    /// @throws InputError  if `fixed` has another size than the mesh
+    explicit System(const Mesh& mesh, const SystemOptions& options = {}, const Progress& progress = {});
+
+    /// (mass M + stiffness C) x = rhs at the free vertices.
+    /// @param x  #V by width: the first guess, and the values of fixed vertices; then the solution
+    /// @throws InputError  unless mass, stiffness >= 0 and one of them > 0, and all values are finite
+    Solved solve(double mass, double stiffness, ConstRows rhs, Rows x, const SolveOptions& options = {},
+                 const Progress& progress = {}) const;
+
+    /// out = sum over the terms of Re w (z M + s C)^-1 M f: any rational low pass with s = 1 / k^2. Fixed vertices and
+    /// those without faces get their f times the sum of Re w / z, and so do constants, exactly.
+    /// @param f, out  #V by width, not the same
+    /// @throws InputError  unless Re z >= 0 and z != 0 for all terms, s >= 0, and all values are finite
+    Solved rational(const std::vector<Term>& terms, double s, ConstRows f, Rows out, const SolveOptions& options = {},
+                    const Progress& progress = {}) const;
+
+    /// The spline filter of order 2 (ISO 16610-22): out = Re (M + i C / k^2)^-1 M f = (M + C M^-1 C / k^4)^-1 M f, of
+    /// gain 1 / (1 + (q / k)^4) for wave number q.
+    /// @param wave_number  k = 2 pi / cutoff, > 0; the cutoff is the wavelength of which half is left
+    Solved low_pass(double wave_number, ConstRows f, Rows out, const SolveOptions& options = {},
+                    const Progress& progress = {}) const;
+
+    const Stiffness& matrices() const { return matrices_; }
+
+private:
+    Solved correct(const Shift& shift, std::complex<double> factor, bool singular, const Array<double>& residual,
+                   Rows x, const SolveOptions& options, const Progress& progress) const;
+
+    Stiffness matrices_;
+    std::vector<std::uint8_t> fixed_;
+    Array<std::uint8_t> active_;  ///< free vertices with faces
+    double mass_scale_ = 1;       ///< makes the mean mass 1
+    Index without_faces_ = 0;
+    std::unique_ptr<const Multigrid> grid_;
+};
+
+}  // namespace multires

@@ -1,0 +1,246 @@
+#include "solvers/multigrid.h"
+
+#include "base/parallel.h"
+
+#include <Eigen/Core>
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseLU>
+
+#include <type_traits>
+#include <utility>
+
+namespace multires {
+namespace {
+
+/// Steps of the Chebyshev smoother before and after the coarse correction, and the part of the spectrum it damps:
+/// [largest / damped, largest].
+constexpr int smoothing_steps = 2;
+constexpr double damped = 5;
+
+using Level = Multigrid::Level;
+
+/// L channels of one row; complex ones as L real and L imaginary parts.
+template <int L, bool Z>
+struct RowOf {
+    static constexpr int stride = Z ? 2 * L : L;
+    using Type = Eigen::Array<float, stride, 1>;
+    using Half = Eigen::Array<float, L, 1>;
+
+    static Type get(const float* v, Index i) {
+        return Eigen::Map<const Type>(v + static_cast<std::size_t>(i) * stride);
+    }
+    static Type get(const double* v, Index i) {
+        return Eigen::Map<const Eigen::Array<double, stride, 1>>(v + static_cast<std::size_t>(i) * stride)
+            .template cast<float>();
+    }
+    static void set(float* v, Index i, const Type& value) {
+        Eigen::Map<Type>(v + static_cast<std::size_t>(i) * stride) = value;
+    }
+    /// factor x value
+    static Type times(const std::complex<float>& factor, const Type& value) {
+        if constexpr (Z) {
+            Type out;
+            out.template head<L>() =
+                factor.real() * value.template head<L>() - factor.imag() * value.template tail<L>();
+            out.template tail<L>() =
+                factor.real() * value.template tail<L>() + factor.imag() * value.template head<L>();
+            return out;
+        } else {
+            return factor.real() * value;
+        }
+    }
+};
+
+/// A on one row.
+template <int L, bool Z>
+typename RowOf<L, Z>::Type product(const Level& level, const std::complex<float>& z, float s, Index i, const float* x) {
+    using Row = RowOf<L, Z>;
+    using Type = typename Row::Type;
+    const Type own = Row::get(x, i);
+    Type c = level.stiffness_diagonal[i] * own, m = level.mass_diagonal[i] * own;
+    if (level.mass.empty()) {
+        for (Index k = level.offset[i]; k < level.offset[i + 1]; ++k)
+            c += level.stiffness[k] * Row::get(x, level.column[k]);
+    } else {
+        for (Index k = level.offset[i]; k < level.offset[i + 1]; ++k) {
+            const Type other = Row::get(x, level.column[k]);
+            c += level.stiffness[k] * other;
+            m += level.mass[k] * other;
+        }
+    }
+    return s * c + Row::times(z, m);
+}
+
+/// Solves on the coarsest level.
+template <bool Z>
+class Coarsest {
+public:
+    using Scalar = std::conditional_t<Z, std::complex<double>, double>;
+
+    Coarsest(const Level& level, const std::complex<double>& z, double s) {
+        const auto entry = [&](float m, float c) {
+            if constexpr (Z) return z * static_cast<double>(m) + s * static_cast<double>(c);
+            if constexpr (!Z) return z.real() * static_cast<double>(m) + s * static_cast<double>(c);
+        };
+        std::vector<Eigen::Triplet<Scalar>> entries;
+        for (Index i = 0; i < level.rows; ++i) {
+            const Scalar diagonal = entry(level.mass_diagonal[i], level.stiffness_diagonal[i]);
+            entries.emplace_back(i, i, diagonal == Scalar(0) ? Scalar(1) : diagonal);
+            for (Index k = level.offset[i]; k < level.offset[i + 1]; ++k)
+                entries.emplace_back(i, level.column[k],
+                                     entry(level.mass.empty() ? 0.0F : level.mass[k], level.stiffness[k]));
+        }
+        Eigen::SparseMatrix<Scalar> a(level.rows, level.rows);
+        a.setFromTriplets(entries.begin(), entries.end());
+        factor_.compute(a);
+        good_ = factor_.info() == Eigen::Success;
+    }
+    bool good() const { return good_; }
+
+    template <int L, class B>
+    void solve(Index rows, const B* b, float* x) const {
+        Eigen::Matrix<Scalar, Eigen::Dynamic, L> values(rows, L);
+        constexpr int stride = Z ? 2 * L : L;
+        for (Index i = 0; i < rows; ++i)
+            for (int c = 0; c < L; ++c) {
+                const B* const from = b + static_cast<std::size_t>(i) * stride;
+                if constexpr (Z) values(i, c) = Scalar(from[c], from[L + c]);
+                if constexpr (!Z) values(i, c) = from[c];
+            }
+        const Eigen::Matrix<Scalar, Eigen::Dynamic, L> solved = factor_.solve(values);
+        for (Index i = 0; i < rows; ++i)
+            for (int c = 0; c < L; ++c) {
+                float* const to = x + static_cast<std::size_t>(i) * stride;
+                if constexpr (Z) to[c] = static_cast<float>(solved(i, c).real());
+                if constexpr (Z) to[L + c] = static_cast<float>(solved(i, c).imag());
+                if constexpr (!Z) to[c] = static_cast<float>(solved(i, c));
+            }
+    }
+
+private:
+    using Matrix = Eigen::SparseMatrix<Scalar>;
+    std::conditional_t<Z, Eigen::SparseLU<Matrix>, Eigen::SimplicialLDLT<Matrix>> factor_;
+    bool good_ = false;
+};
+
+}  // namespace
+
+template <int L, bool Z>
+struct VCycle<L, Z>::Work {
+    using Row = RowOf<L, Z>;
+    using Type = typename Row::Type;
+
+    struct Vectors {
+        Array<std::complex<float>> inverse;  // of Jacobi's D; 0: the row takes no part
+        Array<float> b, x, d;                // x and b of the finest level are the caller's
+        double largest = 2;
+    };
+
+    Work(const Multigrid& multigrid, const Shift& shift)
+        : grid(multigrid.levels()), z(shift.mass), s(static_cast<float>(shift.stiffness)), at(grid.size()),
+          coarsest(grid.back(), shift.mass, shift.stiffness) {
+        for (std::size_t l = 0; l < grid.size(); ++l) {
+            const Level& level = grid[l];
+            at[l].inverse.resize(level.rows);
+            parallel_for(level.rows, [&](Index i) {
+                const std::complex<float> d = z * level.mass_jacobi[i] + s * level.stiffness_jacobi[i];
+                at[l].inverse[i] = d == 0.0F ? 0.0F : 1.0F / d;
+            });
+            at[l].largest = level.mass.empty() ? std::max(1.0F, level.largest) : 2;
+            const std::size_t size = static_cast<std::size_t>(level.rows) * stride;
+            if (l > 0) at[l].b.resize(size);
+            if (l > 0) at[l].x.resize(size);
+            if (l + 1 < grid.size()) at[l].d.resize(size);
+        }
+    }
+
+    /// smoothing_steps of Chebyshev's iteration for D^-1 A. @param from_zero  x counts as 0 and is set
+    template <class B>
+    void smooth(std::size_t l, const B* b, float* x, bool from_zero) {
+        const Level& level = grid[l];
+        const double high = at[l].largest, low = high / damped;
+        const double theta = (high + low) / 2, delta = (high - low) / 2, sigma = theta / delta;
+        double rho = 1 / sigma;
+        float* const d = at[l].d.data();
+        for (int step = 0; step < smoothing_steps; ++step) {
+            float keep = 0, take = static_cast<float>(1 / theta);
+            if (step > 0) {
+                const double next = 1 / (2 * sigma - rho);
+                keep = static_cast<float>(next * rho);
+                take = static_cast<float>(2 * next / delta);
+                rho = next;
+            }
+            const bool zero = from_zero && step == 0;
+            parallel_for(level.rows, [&](Index i) {
+                Type r = Row::get(b, i);
+                if (!zero) r -= product<L, Z>(level, z, s, i, x);
+                r = Row::times(take * at[l].inverse[i], r);
+                if (step > 0) r += keep * Row::get(d, i);
+                Row::set(d, i, r);
+            });
+            parallel_for(level.rows, [&](Index i) {
+                if (zero) {
+                    Row::set(x, i, Row::get(d, i));
+                } else {
+                    Row::set(x, i, Row::get(x, i) + Row::get(d, i));
+                }
+            });
+        }
+    }
+
+    template <class B>
+    void cycle(std::size_t l, const B* b, float* x) {
+        const Level& level = grid[l];
+        if (l + 1 == grid.size()) {
+            if (coarsest.good()) {
+                coarsest.template solve<L>(level.rows, b, x);
+            } else {
+                for (Index i = 0; i < level.rows; ++i) Row::set(x, i, Row::times(at[l].inverse[i], Row::get(b, i)));
+            }
+            return;
+        }
+        smooth(l, b, x, true);
+        float* const d = at[l].d.data();
+        parallel_for(level.rows, [&](Index i) { Row::set(d, i, Row::get(b, i) - product<L, Z>(level, z, s, i, x)); });
+        const Level& coarse = grid[l + 1];
+        Vectors& below = at[l + 1];
+        parallel_for(coarse.rows, [&](Index i) {
+            Type sum = Type::Zero();
+            for (Index k = level.r_offset[i]; k < level.r_offset[i + 1]; ++k)
+                sum += level.r[k] * Row::get(d, level.r_column[k]);
+            Row::set(below.b.data(), i, sum);
+        });
+        cycle(l + 1, below.b.data(), below.x.data());
+        parallel_for(level.rows, [&](Index i) {
+            Type sum = Row::get(x, i);
+            for (Index k = level.p_offset[i]; k < level.p_offset[i + 1]; ++k)
+                sum += level.p[k] * Row::get(below.x.data(), level.p_column[k]);
+            Row::set(x, i, sum);
+        });
+        smooth(l, b, x, false);
+    }
+
+    const std::vector<Level>& grid;
+    std::complex<float> z;
+    float s;
+    std::vector<Vectors> at;
+    Coarsest<Z> coarsest;
+};
+
+template <int L, bool Z>
+VCycle<L, Z>::VCycle(const Multigrid& grid, const Shift& shift) : work_(std::make_unique<Work>(grid, shift)) {}
+
+template <int L, bool Z>
+VCycle<L, Z>::~VCycle() = default;
+
+template <int L, bool Z>
+void VCycle<L, Z>::apply(const Array<double>& r, Array<float>& z) {
+    work_->cycle(0, r.data(), z.data());
+}
+
+template class VCycle<1, false>;
+template class VCycle<4, false>;
+template class VCycle<1, true>;
+template class VCycle<4, true>;
+
+}  // namespace multires
