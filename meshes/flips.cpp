@@ -1,3 +1,4 @@
+#include "base/buckets.h"
 #include "random.h"
 #include "shapes.h"
 
@@ -12,17 +13,10 @@ class CornerTable {
 public:
     explicit CornerTable(Mesh& mesh)
         : mesh_(mesh), opposite_(3 * mesh.faces.size(), -1), valence_(mesh.positions.size(), 0) {
-        std::vector<Index> first(mesh.positions.size() + 1, 0);
-        const auto count = static_cast<Index>(opposite_.size());
-        for (Index h = 0; h < count; ++h) {
-            ++first[std::min(tail(h), head(h)) + 1];
-            ++valence_[tail(h)];
-        }
-        for (std::size_t v = 1; v < first.size(); ++v) first[v] += first[v - 1];
-        std::vector<Index> bucket(count), fill(first.begin(), first.end() - 1);
-        for (Index h = 0; h < count; ++h) bucket[fill[std::min(tail(h), head(h))]++] = h;
-        for (std::size_t v = 0; v + 1 < first.size(); ++v)
-            match(bucket.data() + first[v], bucket.data() + first[v + 1]);
+        for (Index h = 0; h < half_edges(); ++h) ++valence_[tail(h)];
+        const Buckets<Index> by_smaller_end(static_cast<Index>(mesh.positions.size()), half_edges(),
+                                            [&](Index h) { return std::min(tail(h), head(h)); });
+        for (Index v = 0; v < by_smaller_end.size(); ++v) match(by_smaller_end[v].begin(), by_smaller_end[v].end());
     }
 
     Index half_edges() const { return static_cast<Index>(opposite_.size()); }

@@ -1,3 +1,4 @@
+#include "base/angles.h"
 #include "random.h"
 #include "shapes.h"
 
@@ -8,8 +9,6 @@
 namespace multires::shapes {
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 /// Cuts the quadrilateral a, b, c, d (counterclockwise in its parameters) along a random diagonal, or along the other
 /// one if a triangle of the first would get less than a tenth of the area of a unit cell's half.

@@ -1,3 +1,4 @@
+#include "base/angles.h"
 #include "shapes.h"
 
 #include <algorithm>
@@ -35,7 +36,6 @@ Mesh valence_three() {
 }
 
 Mesh moebius_band(Index around, Index across) {
-    const double pi = std::acos(-1.0);
     Mesh mesh;
     // One row more in each direction than there are columns; the last column is the first one upside down.
     const auto vertex = [&](Index i, Index j) {

@@ -1,3 +1,4 @@
+#include "base/angles.h"
 #include "shapes.h"
 
 #include <array>
@@ -7,8 +8,6 @@
 namespace multires::shapes {
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 const std::array<Vec3, 12>& icosahedron_corners() {
     static const double g = (1 + std::sqrt(5.0)) / 2;

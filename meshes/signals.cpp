@@ -1,3 +1,4 @@
+#include "base/angles.h"
 #include "base/parallel.h"
 #include "random.h"
 #include "shapes.h"
@@ -8,8 +9,6 @@
 namespace multires::shapes {
 
 namespace {
-
-const double pi = std::acos(-1.0);
 
 struct Wave {
     Vec3 frequency;  ///< radians per unit of length

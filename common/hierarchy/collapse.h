@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/random.h"
 #include "hierarchy/hierarchy.h"
 #include "hierarchy/quadric.h"
 
@@ -89,10 +90,8 @@ inline double cost(const Quadric& qv, double target_error, const Vec3& d, double
 /// Factor in [0.5, 1.5) that varies the order of collapses with the seed; 1 for seed 0.
 inline double jitter(Index v, int seed) {
     if (seed == 0) return 1;
-    std::uint64_t z = (static_cast<std::uint64_t>(v) << 20 ^ static_cast<std::uint64_t>(seed)) * 0x9e3779b97f4a7c15u;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
-    return 0.5 + static_cast<double>(z >> 11) * 0x1p-53;
+    const std::uint64_t number = static_cast<std::uint64_t>(v) << 20 ^ static_cast<std::uint64_t>(seed);
+    return 0.5 + unit_interval(scrambled(number * random_step));
 }
 
 /// Limits on the faces a collapse leaves behind.

@@ -1,12 +1,12 @@
 #include "hierarchy/independent_sets.h"
 
+#include "base/angles.h"
 #include "base/parallel.h"
 #include "base/radix_sort.h"
 #include "base/reduce.h"
 #include "hierarchy/collapse.h"
 
 #include <algorithm>
-
 #include <limits>
 
 namespace multires {
@@ -74,8 +74,8 @@ class Selection {
 public:
     Selection(const State& s, const HierarchyOptions& options)
         : s_(s), length_weight_(options.length_weight),
-          share_(options.set_share), limits_{std::cos(options.normal_limit_degrees * 3.14159265358979323846 / 180)},
-          degree_(s.rings.rows()), state_(s.rings.rows(), free), parent_(s.rings.rows(), -1) {
+          share_(options.set_share), limits_{std::cos(radians(options.normal_limit_degrees))}, degree_(s.rings.rows()),
+          state_(s.rings.rows(), free), parent_(s.rings.rows(), -1) {
         parallel_for(s.rings.rows(), [&](Index i) { degree_[i] = s.rings.size(i); });
     }
 
@@ -205,11 +205,9 @@ private:
 
 /// Mean length of the edges in the rings, those on the boundary counted as any other.
 double mean_edge(const Rings& rings, const Positions& p) {
-    const auto sum = chunked_reduce<double>(rings.rows(), [&](std::size_t begin, std::size_t end) {
-        double lengths = 0;
-        for (Index i = static_cast<Index>(begin); i < static_cast<Index>(end); ++i)
-            for (Index j = 0; j < rings.size(i); ++j) lengths += (p[rings.begin(i)[j]] - p[i]).norm();
-        return lengths;
+    const auto sum = chunked_fold<double>(rings.rows(), [&](double& lengths, std::size_t row) {
+        const Index i = static_cast<Index>(row);
+        for (Index j = 0; j < rings.size(i); ++j) lengths += (p[rings.begin(i)[j]] - p[i]).norm();
     });
     return rings.neighbor.empty() ? 0 : sum / static_cast<double>(rings.neighbor.size());
 }

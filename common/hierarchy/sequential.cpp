@@ -1,5 +1,6 @@
 #include "hierarchy/sequential.h"
 
+#include "base/angles.h"
 #include "hierarchy/collapse.h"
 #include "hierarchy/renumber.h"
 
@@ -22,8 +23,7 @@ struct Row {
 class Sequence {
 public:
     Sequence(const Rings& rings, const Positions& positions, const HierarchyOptions& options)
-        : positions_(positions),
-          options_(options), limits_{std::cos(options.normal_limit_degrees * 3.14159265358979323846 / 180)},
+        : positions_(positions), options_(options), limits_{std::cos(radians(options.normal_limit_degrees))},
           rows_(rings.rows()), quadric_(rings.rows()), stamp_(rings.rows(), 0), parent_(rings.rows(), -1),
           alive_(rings.rows(), 1), left_(rings.rows()),
           stop_(options.base_vertices +

@@ -47,16 +47,6 @@ double squared_distance_to_box(const Eigen::Vector3f& low, const Eigen::Vector3f
     return sum;
 }
 
-struct Sum {
-    double largest = 0, squares = 0, weight = 0;
-    Sum& operator+=(const Sum& o) {
-        largest = std::max(largest, o.largest);
-        squares += o.squares;
-        weight += o.weight;
-        return *this;
-    }
-};
-
 Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
     const Vec3 d = b - a;
     const double length = d.squaredNorm();
@@ -202,19 +192,17 @@ SurfaceSamples sample_surface(const Faces& faces, const Positions& positions, do
 }
 
 Distance distance_to(const SurfaceSamples& samples, const SurfaceTree& tree) {
-    const Sum sum = chunked_reduce<Sum>(samples.points.size(), [&](std::size_t begin, std::size_t end) {
-        Sum part;
+    const auto found = chunked_reduce<Lengths>(samples.points.size(), [&](std::size_t begin, std::size_t end) {
+        Lengths part;
         Index hint = -1;
         for (std::size_t i = begin; i < end; ++i) {
             const SurfaceTree::Hit hit = tree.closest(samples.points[i], hint);
             hint = hit.face;
-            part.largest = std::max(part.largest, hit.squared);
-            part.squares += samples.weights[i] * hit.squared;
-            part.weight += samples.weights[i];
+            part.add(hit.squared, samples.weights[i]);
         }
         return part;
     });
-    return {std::sqrt(sum.largest), sum.weight > 0 ? std::sqrt(sum.squares / sum.weight) : 0};
+    return {found.largest(), found.rms()};
 }
 
 Distance two_sided_distance(const Faces& a_faces, const Positions& a_positions, const Faces& b_faces,

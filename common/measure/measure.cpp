@@ -1,5 +1,6 @@
 #include "measure/measure.h"
 
+#include "base/angles.h"
 #include "base/parallel.h"
 #include "base/reduce.h"
 
@@ -69,32 +70,12 @@ struct BoxFold {
     }
 };
 
-struct MaxAndSum {
-    double largest = 0, sum = 0;
+struct Qualities {
+    Mean mean;
+    double least = 1;
 
-    MaxAndSum& operator+=(const MaxAndSum& other) {
-        largest = std::max(largest, other.largest);
-        sum += other.sum;
-        return *this;
-    }
-};
-
-struct SumAndCount {
-    double sum = 0;
-    std::size_t count = 0;
-
-    SumAndCount& operator+=(const SumAndCount& other) {
-        sum += other.sum;
-        count += other.count;
-        return *this;
-    }
-};
-
-struct QualityFold {
-    double sum = 0, least = 1;
-
-    QualityFold& operator+=(const QualityFold& other) {
-        sum += other.sum;
+    Qualities& operator+=(const Qualities& other) {
+        mean += other.mean;
         least = std::min(least, other.least);
         return *this;
     }
@@ -104,35 +85,24 @@ struct QualityFold {
 
 Box bounding_box(const Positions& positions) {
     if (positions.empty()) return {};
-    const auto fold = chunked_reduce<BoxFold>(positions.size(), [&](std::size_t begin, std::size_t end) {
-        BoxFold box;
-        for (std::size_t v = begin; v < end; ++v) box += BoxFold{positions[v], positions[v]};
-        return box;
+    const auto fold = chunked_fold<BoxFold>(positions.size(), [&](BoxFold& box, std::size_t v) {
+        box += {positions[v], positions[v]};
     });
     return {fold.low, fold.high};
 }
 
 double mean_edge_length(const Faces& faces, const Positions& positions) {
-    if (faces.empty()) return 0;
-    const auto sum = chunked_reduce<double>(faces.size(), [&](std::size_t begin, std::size_t end) {
-        double lengths = 0;
-        for (std::size_t f = begin; f < end; ++f) {
-            const Vec3 &a = positions[faces[f][0]], &b = positions[faces[f][1]], &c = positions[faces[f][2]];
-            lengths += (b - a).norm() + (c - b).norm() + (a - c).norm();
-        }
-        return lengths;
+    const auto sum = chunked_fold<double>(faces.size(), [&](double& lengths, std::size_t f) {
+        const Vec3 &a = positions[faces[f][0]], &b = positions[faces[f][1]], &c = positions[faces[f][2]];
+        lengths += (b - a).norm() + (c - b).norm() + (a - c).norm();
     });
-    return sum / (3 * static_cast<double>(faces.size()));
+    return faces.empty() ? 0 : sum / (3 * static_cast<double>(faces.size()));
 }
 
 Surface surface(const Faces& faces, const Positions& positions, const Vec3& apex) {
-    const auto sums = chunked_reduce<SurfaceSums>(faces.size(), [&](std::size_t begin, std::size_t end) {
-        SurfaceSums part;
-        for (std::size_t f = begin; f < end; ++f) {
-            const Triangle t(faces[f], positions);
-            part.add(t, t.cross.norm(), apex);
-        }
-        return part;
+    const auto sums = chunked_fold<SurfaceSums>(faces.size(), [&](SurfaceSums& part, std::size_t f) {
+        const Triangle t(faces[f], positions);
+        part.add(t, t.cross.norm(), apex);
     });
     return sums.surface(apex);
 }
@@ -142,30 +112,19 @@ Surface surface(const Faces& faces, const Positions& positions) {
 }
 
 Displacement displacement(const Positions& before, const Positions& after) {
-    if (before.empty()) return {};
-    const auto squares = chunked_reduce<MaxAndSum>(before.size(), [&](std::size_t begin, std::size_t end) {
-        MaxAndSum part;
-        for (std::size_t v = begin; v < end; ++v) {
-            const double square = (after[v] - before[v]).squaredNorm();
-            part += {square, square};
-        }
-        return part;
-    });
-    return {std::sqrt(squares.largest), std::sqrt(squares.sum / static_cast<double>(before.size()))};
+    const auto moved = chunked_fold<Lengths>(
+        before.size(), [&](Lengths& part, std::size_t v) { part.add((after[v] - before[v]).squaredNorm()); });
+    return {moved.largest(), moved.rms()};
 }
 
 Change compare(const Faces& faces, const Positions& before, const Positions& after) {
     const Vec3 apex = bounding_box(before).center();
-    const auto sums = chunked_reduce<ChangeSums>(faces.size(), [&](std::size_t begin, std::size_t end) {
-        ChangeSums part;
-        for (std::size_t f = begin; f < end; ++f) {
-            const Triangle was(faces[f], before), is(faces[f], after);
-            const double norm = was.cross.norm();
-            part.before.add(was, norm, apex);
-            part.after.add(is, is.cross.norm(), apex);
-            part.flipped += was.cross.dot(is.cross) < 0 && norm > degenerate * was.squared_edges();
-        }
-        return part;
+    const auto sums = chunked_fold<ChangeSums>(faces.size(), [&](ChangeSums& part, std::size_t f) {
+        const Triangle was(faces[f], before), is(faces[f], after);
+        const double norm = was.cross.norm();
+        part.before.add(was, norm, apex);
+        part.after.add(is, is.cross.norm(), apex);
+        part.flipped += was.cross.dot(is.cross) < 0 && norm > degenerate * was.squared_edges();
     });
     return {sums.before.surface(apex), sums.after.surface(apex), displacement(before, after), sums.flipped};
 }
@@ -180,41 +139,29 @@ Array<Vec3> face_normals(const Faces& faces, const Positions& positions) {
 }
 
 double mean_normal_angle(const Faces& faces, const Positions& a, const Positions& b) {
-    const auto angles = chunked_reduce<SumAndCount>(faces.size(), [&](std::size_t begin, std::size_t end) {
-        SumAndCount part;
-        for (std::size_t f = begin; f < end; ++f) {
-            const Triangle s(faces[f], a), t(faces[f], b);
-            if (s.is_degenerate() || t.is_degenerate()) continue;
-            part += {std::atan2(s.cross.cross(t.cross).norm(), s.cross.dot(t.cross)), 1};
-        }
-        return part;
+    const auto angles = chunked_fold<Mean>(faces.size(), [&](Mean& part, std::size_t f) {
+        const Triangle s(faces[f], a), t(faces[f], b);
+        if (s.is_degenerate() || t.is_degenerate()) return;
+        part.add(std::atan2(s.cross.cross(t.cross).norm(), s.cross.dot(t.cross)));
     });
-    return angles.count == 0 ? 0 : angles.sum / static_cast<double>(angles.count) * 180 / std::acos(-1.0);
+    return degrees(angles.value());
 }
 
 TriangleQuality triangle_quality(const Faces& faces, const Positions& positions) {
     if (faces.empty()) return {};
-    const auto fold = chunked_reduce<QualityFold>(faces.size(), [&](std::size_t begin, std::size_t end) {
-        QualityFold part;
-        for (std::size_t f = begin; f < end; ++f) {
-            const Triangle t(faces[f], positions);
-            const double squares = t.squared_edges();
-            const double quality = squares > 0 ? 2 * std::sqrt(3.0) * t.cross.norm() / squares : 0;
-            part += {quality, quality};
-        }
-        return part;
+    const auto fold = chunked_fold<Qualities>(faces.size(), [&](Qualities& part, std::size_t f) {
+        const Triangle t(faces[f], positions);
+        const double squares = t.squared_edges();
+        const double quality = squares > 0 ? 2 * std::sqrt(3.0) * t.cross.norm() / squares : 0;
+        part.mean.add(quality);
+        part.least = std::min(part.least, quality);
     });
-    return {fold.sum / static_cast<double>(faces.size()), fold.least};
+    return {fold.mean.value(), fold.least};
 }
 
 double rms(const std::vector<double>& values) {
-    if (values.empty()) return 0;
-    const auto squares = chunked_reduce<double>(values.size(), [&](std::size_t begin, std::size_t end) {
-        double sum = 0;
-        for (std::size_t i = begin; i < end; ++i) sum += values[i] * values[i];
-        return sum;
-    });
-    return std::sqrt(squares / static_cast<double>(values.size()));
+    return chunked_fold<Lengths>(values.size(), [&](Lengths& part, std::size_t i) { part.add(values[i] * values[i]); })
+        .rms();
 }
 
 }  // namespace multires

@@ -1,5 +1,7 @@
 #include "mesh/adjacency.h"
 
+#include "base/angles.h"
+#include "base/buckets.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -13,28 +15,12 @@ struct Wedge {
     Index from, to;
 };
 
-/// All wedges of all vertices in compressed rows.
-struct Wedges {
-    Array<Index> offset;
-    Array<Wedge> wedge;
-};
-
-bool repeats(const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
-
-Wedges collect_wedges(const Mesh& mesh) {
-    const std::size_t n = mesh.positions.size();
-    Wedges w;
-    w.offset.assign(n + 1, 0);
-    for (const Face& f : mesh.faces)
-        if (!repeats(f))
-            for (const Index v : f) ++w.offset[v + 1];
-    for (std::size_t i = 0; i < n; ++i) w.offset[i + 1] += w.offset[i];
-    w.wedge.resize(w.offset[n]);
-    Array<Index> next(w.offset.begin(), w.offset.end() - 1);
-    for (const Face& f : mesh.faces)
-        if (!repeats(f))
-            for (int k = 0; k < 3; ++k) w.wedge[next[f[k]]++] = {f[(k + 1) % 3], f[(k + 2) % 3]};
-    return w;
+Buckets<Wedge> wedges_by_vertex(const Mesh& mesh) {
+    return {static_cast<Index>(mesh.positions.size()), [&](const auto& put) {
+                for (const Face& f : mesh.faces)
+                    if (!repeats_an_index(f))
+                        for (int k = 0; k < 3; ++k) put(f[k], Wedge{f[(k + 1) % 3], f[(k + 2) % 3]});
+            }};
 }
 
 /// Chains the wedges of one vertex into a ring, ordering them in place; gives what the neighbourhood is.
@@ -169,28 +155,25 @@ Index flap_of(const Rings& rings, Index i, Index j) {
 }  // namespace
 
 Rings vertex_rings(const Mesh& mesh) {
-    Wedges wedges = collect_wedges(mesh);
+    Buckets<Wedge> wedges = wedges_by_vertex(mesh);
     const Index n = static_cast<Index>(mesh.positions.size());
     Rings rings;
     rings.kind.resize(n);
     rings.offset.resize(n + 1);
     parallel_chunks(n, 1024, [&](Index begin, Index end) {
         Chainer chainer;
-        for (Index i = begin; i < end; ++i)
-            rings.kind[i] =
-                chainer.chain(wedges.wedge.data() + wedges.offset[i], wedges.offset[i + 1] - wedges.offset[i]);
+        for (Index i = begin; i < end; ++i) rings.kind[i] = chainer.chain(wedges[i].begin(), wedges[i].size());
     });
     for (Index i = 0; i < n; ++i) {
-        const Index faces = wedges.offset[i + 1] - wedges.offset[i];
         const bool has_ring = rings.kind[i] == RingKind::closed || rings.kind[i] == RingKind::open;
-        rings.offset[i + 1] = rings.offset[i] + (has_ring ? faces + (rings.kind[i] == RingKind::open) : 0);
+        rings.offset[i + 1] = rings.offset[i] + (has_ring ? wedges[i].size() + (rings.kind[i] == RingKind::open) : 0);
     }
     rings.neighbor.resize(rings.offset[n]);
     parallel_for(n, [&](Index i) {
-        const Wedge* w = wedges.wedge.data() + wedges.offset[i];
+        const auto w = wedges[i];
         Index* out = rings.neighbor.data() + rings.offset[i];
         const Index d = rings.size(i);
-        for (Index j = 0; j < d; ++j) out[j] = j < wedges.offset[i + 1] - wedges.offset[i] ? w[j].from : w[j - 1].to;
+        for (Index j = 0; j < d; ++j) out[j] = j < w.size() ? w[j].from : w[j - 1].to;
     });
     return rings;
 }
@@ -226,7 +209,7 @@ void find_flaps(Rings& rings, const Array<Index>* rows) {
 }
 
 void mark_features_by_angle(Rings& rings, const Positions& positions, double degrees) {
-    const double limit = std::cos(degrees * 3.14159265358979323846 / 180);
+    const double limit = std::cos(radians(degrees));
     if (rings.feature.empty()) rings.feature.assign(rings.neighbor.size(), 0);
     const auto sharp = [&](Index i, Index j) {
         const Index d = rings.size(i);

@@ -1,5 +1,7 @@
 #include "mesh/validation.h"
 
+#include "base/buckets.h"
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "mesh/adjacency.h"
 
@@ -7,7 +9,6 @@
 #include <array>
 #include <cstring>
 #include <functional>
-#include <numeric>
 #include <string>
 #include <utility>
 
@@ -18,55 +19,10 @@ namespace {
 constexpr double degenerate_tolerance = 1e-10;  // as in operators/ and measure/
 constexpr double least_diagonal = 1e-70, most_diagonal = 1e70;
 
-bool repeats_an_index(const Face& f) { return f[0] == f[1] || f[1] == f[2] || f[2] == f[0]; }
-
 bool has_area(const Face& f, const Positions& p) {
     const Vec3 a = p[f[1]] - p[f[0]], b = p[f[2]] - p[f[1]], c = p[f[0]] - p[f[2]];
     return a.cross(b).norm() > degenerate_tolerance * (a.squaredNorm() + b.squaredNorm() + c.squaredNorm());
 }
-
-/// Items sorted into buckets 0 .. buckets-1 in linear time, in their order.
-struct Buckets {
-    Array<Index> first, item;  // items of bucket b: item[first[b] .. first[b+1])
-
-    template <class BucketOf>
-    Buckets(Index buckets, Index items, BucketOf bucket_of) : first(buckets + 2, 0), item(items) {
-        for (Index i = 0; i < items; ++i) ++first[bucket_of(i) + 2];
-        std::partial_sum(first.begin(), first.end(), first.begin());
-        for (Index i = 0; i < items; ++i) item[first[bucket_of(i) + 1]++] = i;  // its end comes to lie where it ends
-        first.pop_back();
-    }
-    Index buckets() const { return static_cast<Index>(first.size()) - 1; }
-};
-
-/// Disjoint sets of 0 .. n-1; each element may be known to lie on the other side (1) or the same side (0) of its
-/// parent.
-struct Sets {
-    explicit Sets(Index n) : parent(n), side(n, 0) { std::iota(parent.begin(), parent.end(), 0); }
-
-    std::pair<Index, std::uint8_t> find(Index i) {
-        std::uint8_t s = 0;
-        while (parent[i] != i) {
-            side[i] ^= side[parent[i]];
-            parent[i] = parent[parent[i]];
-            s ^= side[i];
-            i = parent[i];
-        }
-        return {i, s};
-    }
-    /// Joins the sets of i and j, which lie on the same or different sides; false if they were known to be otherwise.
-    bool join(Index i, Index j, std::uint8_t different = 0) {
-        const auto [a, s] = find(i);
-        const auto [b, t] = find(j);
-        if (a == b) return (s ^ t) == different;
-        parent[b] = a;
-        side[b] = s ^ t ^ different;
-        return true;
-    }
-
-    Array<Index> parent;
-    Array<std::uint8_t> side;
-};
 
 /// The indices of a face in ascending order.
 Face ascending(Face f) {
@@ -95,30 +51,29 @@ Index count_duplicate_vertices(const Positions& positions) {
         }
         return static_cast<Index>(hash % static_cast<std::uint64_t>(n));
     };
-    Buckets buckets(n, n, bucket_of);
+    Buckets<Index> buckets(n, n, bucket_of);
     const auto less = [&](Index i, Index j) {
         const Vec3 &a = positions[i], &b = positions[j];
         return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
     };
     Index count = 0;
     for (Index b = 0; b < n; ++b) {
-        const auto begin = buckets.item.begin() + buckets.first[b], end = buckets.item.begin() + buckets.first[b + 1];
-        if (end - begin < 2) continue;
-        std::sort(begin, end, less);
-        for (auto i = begin + 1; i != end; ++i) count += positions[*(i - 1)] == positions[*i];
+        const auto same_hash = buckets[b];
+        std::sort(same_hash.begin(), same_hash.end(), less);
+        for (Index i = 1; i < same_hash.size(); ++i) count += positions[same_hash[i - 1]] == positions[same_hash[i]];
     }
     return count;
 }
 
 Index count_duplicate_faces(Index vertices, const Faces& faces) {
     const auto smallest = [&](Index f) { return std::min({faces[f][0], faces[f][1], faces[f][2]}); };
-    Buckets buckets(vertices, static_cast<Index>(faces.size()), smallest);
+    const Buckets<Index> buckets(vertices, static_cast<Index>(faces.size()), smallest);
     std::vector<Face> of_vertex;
     Index count = 0;
     for (Index v = 0; v < vertices; ++v) {
         of_vertex.clear();
-        for (Index i = buckets.first[v]; i < buckets.first[v + 1]; ++i)
-            if (!repeats_an_index(faces[buckets.item[i]])) of_vertex.push_back(ascending(faces[buckets.item[i]]));
+        for (const Index f : buckets[v])
+            if (!repeats_an_index(faces[f])) of_vertex.push_back(ascending(faces[f]));
         std::sort(of_vertex.begin(), of_vertex.end());
         for (std::size_t i = 1; i < of_vertex.size(); ++i) count += of_vertex[i - 1] == of_vertex[i];
     }
@@ -153,14 +108,13 @@ void for_each_edge(const Mesh& mesh, Visit visit) {
     const Faces& faces = mesh.faces;
     const auto smaller = [&](Index c) { return std::min(faces[c / 3][c % 3], faces[c / 3][(c + 1) % 3]); };
     const auto larger = [&](Index c) { return std::max(faces[c / 3][c % 3], faces[c / 3][(c + 1) % 3]); };
-    const Buckets buckets(static_cast<Index>(mesh.positions.size()), static_cast<Index>(3 * faces.size()), smaller);
+    const Buckets<Index> buckets(static_cast<Index>(mesh.positions.size()), static_cast<Index>(3 * faces.size()),
+                                 smaller);
     std::vector<Side> sides;
-    for (Index v = 0; v < buckets.buckets(); ++v) {
+    for (Index v = 0; v < buckets.size(); ++v) {
         sides.clear();
-        for (Index i = buckets.first[v]; i < buckets.first[v + 1]; ++i) {
-            const Index c = buckets.item[i];
+        for (const Index c : buckets[v])
             if (!repeats_an_index(faces[c / 3])) sides.push_back({larger(c), c / 3, faces[c / 3][c % 3] == v});
-        }
         std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
             return std::make_pair(a.other, a.face) < std::make_pair(b.other, b.face);
         });
@@ -180,32 +134,32 @@ void count_edges(const Mesh& mesh, InputCounts& counts) {
     });
     counts.boundary_edges = static_cast<Index>(boundary.size());
     if (boundary.empty()) return;
-    Sets loops(static_cast<Index>(mesh.positions.size()));
+    DisjointSets loops(static_cast<Index>(mesh.positions.size()));
     std::vector<std::uint8_t> root(mesh.positions.size(), 0);
     for (const auto& [a, b] : boundary) loops.join(a, b);
-    for (const auto& [a, b] : boundary) root[loops.find(a).first] = 1;
+    for (const auto& [a, b] : boundary) root[loops.find(a).root] = 1;
     counts.boundary_loops = static_cast<Index>(std::count(root.begin(), root.end(), 1));
 }
 
 Index count_components(const Mesh& mesh) {
-    Sets sets(static_cast<Index>(mesh.positions.size()));
+    DisjointSets sets(static_cast<Index>(mesh.positions.size()));
     std::vector<std::uint8_t> root(mesh.positions.size(), 0);
     for (const Face& f : mesh.faces)
         if (!repeats_an_index(f)) sets.join(f[0], f[1]), sets.join(f[0], f[2]);
     for (const Face& f : mesh.faces)
-        if (!repeats_an_index(f)) root[sets.find(f[0]).first] = 1;
+        if (!repeats_an_index(f)) root[sets.find(f[0]).root] = 1;
     return static_cast<Index>(std::count(root.begin(), root.end(), 1));
 }
 
 Index count_non_orientable(const Mesh& mesh) {
-    Sets sets(static_cast<Index>(mesh.faces.size()));
+    DisjointSets sets(static_cast<Index>(mesh.faces.size()));
     std::vector<Index> contradictions;
     for_each_edge(mesh, [&](Index, const Side* begin, const Side* end) {
         if (end - begin != 2) return;
         if (!sets.join(begin[0].face, begin[1].face, begin[0].upward == begin[1].upward))
             contradictions.push_back(begin[0].face);
     });
-    for (Index& f : contradictions) f = sets.find(f).first;
+    for (Index& f : contradictions) f = sets.find(f).root;
     std::sort(contradictions.begin(), contradictions.end());
     return static_cast<Index>(std::unique(contradictions.begin(), contradictions.end()) - contradictions.begin());
 }

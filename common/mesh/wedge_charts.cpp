@@ -1,8 +1,9 @@
 #include "mesh/wedge_charts.h"
 
+#include "base/disjoint_sets.h"
+
 #include <algorithm>
 #include <cstring>
-#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -20,27 +21,14 @@ std::uint64_t bits(double x) {
 // A total order in which equal wedges are neighbours, NaN included.
 std::tuple<int, std::uint64_t, std::uint64_t> key(const Wedge& w) { return {w.texture, bits(w.u), bits(w.v)}; }
 
-Index find(std::vector<Index>& parent, Index i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
-/// Corners by vertex: those of vertex i are around[first[i]] .. around[first[i+1]], ascending.
-void sort_corners(Index vertices, const Faces& faces, std::vector<Index>& first, std::vector<Index>& around) {
-    first.assign(vertices + 1, 0);
-    around.resize(3 * faces.size());
-    for (const Face& f : faces)
-        for (const Index v : f) ++first[v + 1];
-    std::partial_sum(first.begin(), first.end(), first.begin());
-    std::vector<Index> next(first.begin(), first.end() - 1);
-    for (Index c = 0; c < static_cast<Index>(around.size()); ++c) around[next[faces[c / 3][c % 3]]++] = c;
-}
-
-/// Sorts the corners of one vertex so that equal wedges are neighbours.
-void sort_by_wedge(const std::vector<Wedge>& corners, Index* begin, Index* end) {
-    std::sort(begin, end, [&](Index a, Index b) {
-        return std::make_pair(key(corners[a]), a) < std::make_pair(key(corners[b]), b);
-    });
+/// The corners of each vertex, sorted so that equal wedges are neighbours.
+Buckets<Index> corners_by_wedge(Index vertices, const Faces& faces, const std::vector<Wedge>& corners) {
+    Buckets<Index> around(vertices, static_cast<Index>(3 * faces.size()), [&](Index c) { return faces[c / 3][c % 3]; });
+    for (Index v = 0; v < vertices; ++v)
+        std::sort(around[v].begin(), around[v].end(), [&](Index a, Index b) {
+            return std::make_pair(key(corners[a]), a) < std::make_pair(key(corners[b]), b);
+        });
+    return around;
 }
 
 double squared_distance(const Wedge& a, const Wedge& b) {
@@ -50,25 +38,22 @@ double squared_distance(const Wedge& a, const Wedge& b) {
 }  // namespace
 
 WedgeCharts::WedgeCharts(Index vertices, const Faces& faces, std::vector<Wedge> corners)
-    : corners_(std::move(corners)), chart_(faces.size()) {
-    sort_corners(vertices, faces, first_, around_);
-    std::iota(chart_.begin(), chart_.end(), 0);
-    for (Index v = 0; v < vertices; ++v) {
-        Index* const begin = around_.data() + first_[v];
-        Index* const end = around_.data() + first_[v + 1];
-        sort_by_wedge(corners_, begin, end);
-        for (const Index* c = begin; c != end && c + 1 != end; ++c)
-            if (key(corners_[*c]) == key(corners_[*(c + 1)])) chart_[find(chart_, *c / 3)] = find(chart_, *(c + 1) / 3);
-    }
-    for (Index f = 0; f < static_cast<Index>(faces.size()); ++f) chart_[f] = find(chart_, f);
+    : corners_(std::move(corners)), around_(corners_by_wedge(vertices, faces, corners_)), chart_(faces.size()) {
+    DisjointSets charts(static_cast<Index>(faces.size()));
+    for (Index v = 0; v < vertices; ++v)
+        for (Index i = 1; i < around_[v].size(); ++i) {
+            const Index a = around_[v][i - 1], b = around_[v][i];
+            if (key(corners_[a]) == key(corners_[b])) charts.join(a / 3, b / 3);
+        }
+    for (Index f = 0; f < static_cast<Index>(faces.size()); ++f) chart_[f] = charts.find(f).root;
 }
 
 const Wedge& WedgeCharts::wedge(Index vertex, Index face, int k) const {
     const Wedge& own = corners_[3 * face + k];
     const Wedge* best = nullptr;
-    for (Index i = first_[vertex]; i < first_[vertex + 1]; ++i) {
-        const Wedge& candidate = corners_[around_[i]];
-        if (chart_[around_[i] / 3] != chart_[face]) continue;
+    for (const Index c : around_[vertex]) {
+        const Wedge& candidate = corners_[c];
+        if (chart_[c / 3] != chart_[face]) continue;
         if (!best || squared_distance(candidate, own) < squared_distance(*best, own)) best = &candidate;
     }
     return best ? *best : own;
@@ -76,29 +61,26 @@ const Wedge& WedgeCharts::wedge(Index vertex, Index face, int k) const {
 
 CutMesh cut_along_seams(const Mesh& mesh, const std::vector<Wedge>& wedges) {
     const Index vertices = static_cast<Index>(mesh.positions.size());
-    std::vector<Index> first, around;
-    sort_corners(vertices, mesh.faces, first, around);
+    const Buckets<Index> around = corners_by_wedge(vertices, mesh.faces, wedges);
     CutMesh cut;
-    cut.node.resize(around.size());
+    cut.node.resize(around.items());
     for (Index v = 0; v < vertices; ++v) {
         cut.nodes_of.push_back(static_cast<Index>(cut.vertex.size()));
-        sort_by_wedge(wedges, around.data() + first[v], around.data() + first[v + 1]);
-        for (Index i = first[v]; i < first[v + 1]; ++i) {
-            const Wedge& w = wedges[around[i]];
-            if (i == first[v] || key(w) != key(wedges[around[i - 1]])) {
+        for (Index i = 0; i < around[v].size(); ++i) {
+            const Wedge& w = wedges[around[v][i]];
+            if (i == 0 || key(w) != key(wedges[around[v][i - 1]])) {
                 cut.vertex.push_back(v);
                 cut.wedge.push_back(w);
                 cut.mesh.positions.push_back(mesh.positions[v]);
             }
-            cut.node[around[i]] = static_cast<Index>(cut.vertex.size()) - 1;
+            cut.node[around[v][i]] = static_cast<Index>(cut.vertex.size()) - 1;
         }
     }
     cut.nodes_of.push_back(static_cast<Index>(cut.vertex.size()));
     for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
         const Face& v = mesh.faces[f];
         const Index* n = cut.node.data() + 3 * f;
-        const bool repeats = v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
-        cut.mesh.faces.push_back(repeats ? Face{n[0], n[0], n[0]} : Face{n[0], n[1], n[2]});
+        cut.mesh.faces.push_back(repeats_an_index(v) ? Face{n[0], n[0], n[0]} : Face{n[0], n[1], n[2]});
     }
     return cut;
 }

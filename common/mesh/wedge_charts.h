@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/buckets.h"
 #include "mesh/layer.h"
 
 namespace multires {
@@ -22,9 +23,9 @@ public:
     const Wedge& wedge(Index vertex, Index face, int k) const;
 
 private:
-    std::vector<Wedge> corners_;         // 3 #F
-    std::vector<Index> first_, around_;  // corners around vertex i: around_[first_[i] .. first_[i+1])
-    std::vector<Index> chart_;           // #F
+    std::vector<Wedge> corners_;  // 3 #F
+    Buckets<Index> around_;       // corners of each vertex
+    std::vector<Index> chart_;    // #F
 };
 
 /// A mesh cut open along the seams of its texture atlas, so that every vertex has one texture coordinate: corners that

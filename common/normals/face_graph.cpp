@@ -7,16 +7,10 @@
 namespace multires {
 
 Incidence vertex_faces(const Faces& faces, Index vertices) {
-    Incidence at;
-    at.offset.assign(vertices + 1, 0);
-    for (const Face& f : faces)
-        for (const Index v : f) ++at.offset[v + 1];
-    for (Index v = 0; v < vertices; ++v) at.offset[v + 1] += at.offset[v];
-    at.face.resize(at.offset[vertices]);
-    std::vector<Index> next(at.offset.begin(), at.offset.end() - 1);
-    for (std::size_t f = 0; f < faces.size(); ++f)
-        for (const Index v : faces[f]) at.face[next[v]++] = static_cast<Index>(f);
-    return at;
+    return {vertices, [&](const auto& put) {
+                for (std::size_t f = 0; f < faces.size(); ++f)
+                    for (const Index v : faces[f]) put(v, static_cast<Index>(f));
+            }};
 }
 
 FaceGraph face_graph(const Faces& faces, const Incidence& at) {
@@ -31,8 +25,7 @@ FaceGraph face_graph(const Faces& faces, const Incidence& at) {
         std::vector<Index> around;
         for (Index f = begin; f < end; ++f) {
             around.clear();
-            for (const Index v : faces[f])
-                around.insert(around.end(), at.face.begin() + at.offset[v], at.face.begin() + at.offset[v + 1]);
+            for (const Index v : faces[f]) around.insert(around.end(), at[v].begin(), at[v].end());
             std::sort(around.begin(), around.end());
             // A face met at two of the three vertices shares an edge.
             Index written = 0;

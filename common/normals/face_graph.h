@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/buckets.h"
 #include "mesh/mesh.h"
 
 #include <array>
@@ -7,11 +8,8 @@
 
 namespace multires {
 
-/// Faces of each vertex, in compressed rows.
-struct Incidence {
-    std::vector<Index> offset;  ///< #V+1
-    std::vector<Index> face;    ///< #corners; ascending within a vertex
-};
+/// Faces of each vertex, ascending; a face that repeats a vertex comes as often.
+using Incidence = Buckets<Index>;
 
 /// @param vertices  #V; face indices are in range
 Incidence vertex_faces(const Faces& faces, Index vertices);

@@ -40,8 +40,7 @@ Positions fit_vertices(const Faces& faces, const Positions& positions, const Inc
             Vec3 along(0, 0, 0), middle(0, 0, 0), normal_sum(0, 0, 0);
             Index members = 0, unpaired = 0;
             bool make_room = false;
-            for (Index k = at.offset[v]; k < at.offset[v + 1]; ++k) {
-                const Index f = at.face[k];
+            for (const Index f : at[v]) {
                 if (normals[f].isZero()) continue;
                 for (const Index w : faces[f]) unpaired ^= w == v ? 0 : w;
                 const Vec3 to = centroid[f] - p[v];

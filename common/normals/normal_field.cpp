@@ -1,5 +1,6 @@
 #include "normals/normal_field.h"
 
+#include "base/median.h"
 #include "base/parallel.h"
 #include "base/reduce.h"
 
@@ -58,31 +59,16 @@ double median_difference(const FaceGraph& graph, const Normals& n) {
     });
     d.erase(std::remove(d.begin(), d.end(), -1.0F), d.end());
     if (d.empty()) return 0;
-    const auto middle = d.begin() + static_cast<std::ptrdiff_t>(d.size() / 2);
-    std::nth_element(d.begin(), middle, d.end());
-    return *middle;
+    return upper_median(d);
 }
 
 /// Between centroids of faces with a common edge; 0 without such faces.
 double mean_distance(const FaceGraph& graph, const Geometry& g) {
-    using Sum = Eigen::Array2d;  // of the distances, and their number
-    struct Total {
-        Sum sum = Sum::Zero();
-        Total& operator+=(const Total& o) {
-            sum += o.sum;
-            return *this;
-        }
-    };
-    const Sum all = chunked_reduce<Total>(graph.edges.size(), [&](std::size_t begin, std::size_t end) {
-                        Total part;
-                        for (std::size_t e = begin; e < end; ++e) {
-                            const Index a = graph.edges[e][0], b = graph.edges[e][1];
-                            if (g.area[a] > 0 && g.area[b] > 0)
-                                part.sum += Sum((g.centroid[a] - g.centroid[b]).norm(), 1);
-                        }
-                        return part;
-                    }).sum;
-    return all[1] > 0 ? all[0] / all[1] : 0;
+    const auto mean = chunked_fold<Mean>(graph.edges.size(), [&](Mean& part, std::size_t e) {
+        const Index a = graph.edges[e][0], b = graph.edges[e][1];
+        if (g.area[a] > 0 && g.area[b] > 0) part.add((g.centroid[a] - g.centroid[b]).norm());
+    });
+    return mean.value();
 }
 
 /// Area times the weight by distance, for every entry of the graph: the same in all steps.
@@ -144,12 +130,8 @@ std::vector<double> local_energy(const FaceGraph& graph, const std::vector<doubl
 }
 
 double mean_energy(const Normals& a, const Normals& b) {
-    const double sum = chunked_reduce<double>(a.size(), [&](std::size_t begin, std::size_t end) {
-        double part = 0;
-        for (std::size_t f = begin; f < end; ++f) part += (a[f] - b[f]).squaredNorm();
-        return part;
-    });
-    return a.empty() ? 0 : sum / static_cast<double>(a.size());
+    return chunked_fold<Mean>(a.size(), [&](Mean& part, std::size_t f) { part.add((a[f] - b[f]).squaredNorm()); })
+        .value();
 }
 
 /// Adds to `coarse` what is significant of fine - coarser.

@@ -1,5 +1,6 @@
 #include "normals/spikes.h"
 
+#include "base/median.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -40,12 +41,11 @@ enum class Middle { mean, nearest };
 
 /// @param values  at least one; reordered
 double median(std::vector<double>& values, Middle middle) {
-    const auto upper = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), upper, values.end());
-    if (values.size() % 2 == 1) return *upper;
-    const double lower = *std::max_element(values.begin(), upper);
-    if (middle == Middle::mean) return (lower + *upper) / 2;
-    return std::abs(lower) < std::abs(*upper) ? lower : *upper;
+    const double upper = upper_median(values);
+    if (values.size() % 2 == 1) return upper;
+    const double lower = *std::max_element(values.begin(), values.begin() + values.size() / 2);
+    if (middle == Middle::mean) return (lower + upper) / 2;
+    return std::abs(lower) < std::abs(upper) ? lower : upper;
 }
 
 class Search {
@@ -99,8 +99,8 @@ private:
     /// Calls with(neighbour), for most neighbours twice.
     template <class With>
     void for_ring(Index v, const With& with) const {
-        for (Index k = at_.offset[v]; k < at_.offset[v + 1]; ++k)
-            for (const Index w : faces_[at_.face[k]])
+        for (const Index f : at_[v])
+            for (const Index w : faces_[f])
                 if (w != v) with(w);
     }
 
@@ -111,8 +111,8 @@ private:
         for (const Index w : faces_[f])
             if (w != v && found < 2) edge[found++] = w;
         if (found < 2 || edge[0] == edge[1]) return;
-        for (Index k = at_.offset[edge[0]]; k < at_.offset[edge[0] + 1]; ++k) {
-            const Face& g = faces_[at_.face[k]];
+        for (const Index h : at_[edge[0]]) {
+            const Face& g = faces_[h];
             if (std::find(g.begin(), g.end(), edge[1]) != g.end() && std::find(g.begin(), g.end(), v) == g.end())
                 with(g);
         }
@@ -122,8 +122,8 @@ private:
         std::vector<double>& heights = space.heights;
         heights.clear();
         Offset offset;
-        for (Index k = at_.offset[v]; k < at_.offset[v + 1]; ++k)
-            across(at_.face[k], v, [&](const Face& g) {
+        for (const Index f : at_[v])
+            across(f, v, [&](const Face& g) {
                 const Vec3& a = p_[g[0]];
                 const Vec3 n = (p_[g[1]] - a).cross(p_[g[2]] - a);
                 const double length = n.norm();

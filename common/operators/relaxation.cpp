@@ -1,5 +1,6 @@
 #include "operators/relaxation.h"
 
+#include "base/angles.h"
 #include "base/parallel.h"
 #include "operators/kernels.h"
 
@@ -65,7 +66,7 @@ std::vector<Index> for_rows(Index rows, const RelaxationOptions& options, const 
 }  // namespace
 
 RowRelaxation::RowRelaxation(const RelaxationOptions& options)
-    : options_(options), largest_cotangent_(1 / std::tan(options.smallest_angle * std::acos(-1.0) / 180)) {}
+    : options_(options), largest_cotangent_(1 / std::tan(radians(options.smallest_angle))) {}
 
 RowRelaxation::Curve RowRelaxation::rule(const Star& star) const {
     if (star.kind == RingKind::open) {

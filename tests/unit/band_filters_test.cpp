@@ -9,8 +9,6 @@ using namespace fixtures;
 
 namespace {
 
-const double pi = std::acos(-1.0);
-
 double wavelength(Index degree) { return 2 * pi / std::sqrt(degree * (degree + 1.0)); }
 
 constexpr Index low_degree = 4, high_degree = 34;  // a factor of 7.7 between their wavelengths

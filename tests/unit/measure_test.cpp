@@ -11,8 +11,6 @@
 namespace multires {
 namespace {
 
-const double pi = std::acos(-1.0);
-
 Positions shaken(const Positions& positions, double amount) {
     shapes::Random random(7);
     Positions result(positions);

@@ -70,13 +70,11 @@ TEST(FaceGraph, IncidenceHoldsEveryCornerOnce) {
     for (const auto& [name, mesh] : every_class()) {
         SCOPED_TRACE(name);
         const Incidence at = incidence_of(mesh);
-        ASSERT_EQ(at.face.size(), 3 * mesh.faces.size());
-        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
-            EXPECT_TRUE(std::is_sorted(at.face.begin() + at.offset[v], at.face.begin() + at.offset[v + 1]));
-            for (Index k = at.offset[v]; k < at.offset[v + 1]; ++k) {
-                const Face& f = mesh.faces[at.face[k]];
-                EXPECT_NE(std::find(f.begin(), f.end(), static_cast<Index>(v)), f.end());
-            }
+        ASSERT_EQ(at.items(), static_cast<Index>(3 * mesh.faces.size()));
+        for (Index v = 0; v < at.size(); ++v) {
+            EXPECT_TRUE(std::is_sorted(at[v].begin(), at[v].end()));
+            for (const Index f : at[v])
+                EXPECT_NE(std::find(mesh.faces[f].begin(), mesh.faces[f].end(), v), mesh.faces[f].end());
         }
     }
 }
