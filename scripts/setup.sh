@@ -30,10 +30,11 @@ if [ ${#missing[@]} -gt 0 ]; then
     $sudo env DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "${missing[@]}"
 fi
 
-# Debian's own Python: another one on the PATH may be built without what the wheels need.
+# Debian's own Python: another one on the PATH may be built without what the wheels need. What is there already stays
+# usable for programs that run.
 wanted=$(sha256sum requirements.txt)
 if [ "$(cat .venv/installed 2>/dev/null)" != "$wanted" ]; then
-    /usr/bin/python3 -m venv --clear .venv
+    /usr/bin/python3 -m venv .venv
     .venv/bin/pip install -q -r requirements.txt
     echo "$wanted" >.venv/installed
 fi

@@ -1,12 +1,24 @@
-"""Small charts as inline SVG, for the page of tools/report.py. Colours come from its style sheet, by class."""
+"""Small charts for the page of tools/report.py, by matplotlib, as SVG to be put into HTML."""
 
-import html
+import io
 import math
+import re
 
+import matplotlib
 import numpy as np
+from markupsafe import Markup, escape
+from matplotlib.figure import Figure
+from matplotlib.ticker import StrMethodFormatter
 
-WIDTH, HEIGHT = 280, 180
-LEFT, RIGHT, TOP, BOTTOM = 42, 270, 10, 150  # of the plotting area
+OURS, THEIRS, INK, BEFORE, FILLED, AXIS, GRID, FAINT = (
+    "#0b6a60", "#5a6478", "#26262a", "#a4917a", "#e0d3c2", "#8c8b86", "#e3e2dc", "#5c5c63")  # fmt: skip
+LOOK = {
+    "svg.fonttype": "none", "svg.hashsalt": "charts", "font.sans-serif": ["DejaVu Sans"], "font.size": 8, "axes.labelsize": 8, "axes.labelcolor": FAINT,
+    "xtick.labelsize": 8, "ytick.labelsize": 8, "xtick.color": AXIS, "ytick.color": AXIS, "xtick.labelcolor": FAINT,
+    "ytick.labelcolor": FAINT, "xtick.major.size": 3, "ytick.major.size": 0, "axes.edgecolor": AXIS,
+    "axes.spines.top": False, "axes.spines.right": False, "axes.axisbelow": True, "grid.color": GRID,
+    "figure.facecolor": "none", "axes.facecolor": "none", "lines.dashed_pattern": (4, 3),
+}  # fmt: skip
 BINS = 25
 
 
@@ -14,34 +26,6 @@ def round_up(value):
     """The least of 1, 1.5, 2, 3, 5, 7 times a power of ten that is not below the value."""
     power = 10.0 ** math.floor(math.log10(value))
     return next(f * power for f in (1, 1.5, 2, 3, 5, 7, 10) if f * power >= value * (1 - 1e-9))
-
-
-def plain(value):
-    return f"{value:g}" if value == 0 or value >= 0.001 else f"{value:.0e}".replace("e-0", "e-")
-
-
-def frame(label, body):
-    return (
-        f'<svg viewBox="0 0 {WIDTH} {HEIGHT}" role="img" aria-label="{html.escape(label)}">'
-        f'<path class="axis" d="M{LEFT} {TOP}V{BOTTOM}H{RIGHT}"/>{body}</svg>'
-    )
-
-
-def polyline(xs, ys, kind):
-    return f'<polyline class="{kind}" points="{" ".join(f"{x:.1f},{y:.1f}" for x, y in zip(xs, ys))}"/>'
-
-
-def ticks(values, at, horizontal):
-    """Marks and numbers below (horizontal) or left of the plotting area."""
-    out = []
-    for value in values:
-        p = at(value)
-        out.append(
-            f'<path class="tick" d="M{p:.1f} {BOTTOM}v4"/><text x="{p:.1f}" y="{BOTTOM + 16}" text-anchor="middle">{plain(value)}</text>'
-            if horizontal
-            else f'<path class="grid" d="M{LEFT} {p:.1f}H{RIGHT}"/><text x="{LEFT - 5}" y="{p + 4:.1f}" text-anchor="end">{plain(value)}</text>'
-        )
-    return "".join(out)
 
 
 def round_values(least, most):
@@ -52,6 +36,29 @@ def round_values(least, most):
         if len(values) <= 4:
             break
     return values
+
+
+def drawn(draw, label):
+    """The SVG of what draw(axes) draws, for HTML: without namespaces, and without ids, which a page has only once."""
+    with matplotlib.rc_context(LOOK):
+        figure = Figure(figsize=(2.8, 1.8))
+        axes = figure.add_axes((0.16, 0.2, 0.81, 0.75))
+        axes.grid(axis="y")
+        draw(axes)
+        axes.minorticks_off()
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_formatter(StrMethodFormatter("{x:g}"))
+        out = io.StringIO()
+        figure.savefig(out, format="svg", metadata=dict.fromkeys(("Creator", "Date", "Format", "Type")))
+    svg = out.getvalue()
+    needless = r'<!--.*?-->|(?<=<g) id="[^"]*"| clip-path="[^"]*"| xmlns(:xlink)?="[^"]*"'  # everything is inside
+    svg = re.sub(needless, "", svg[svg.index("<svg") :], flags=re.DOTALL)
+    svg = svg.replace("<svg ", f'<svg role="img" aria-label="{escape(label)}" ', 1)
+    return Markup(re.sub(r"\s*\n\s*", " ", svg))
+
+
+def color(outcome):
+    return OURS if outcome.ours else THEIRS
 
 
 def spectrum_scale(levels):
@@ -68,19 +75,14 @@ def spectrum(outcome, given, scale):
     """RMS detail over wavelength: the outcome thick, the given ones (input, then the truth) thin and dashed."""
     least_x, most_x, least_y, most_y = scale
 
-    def across(x):
-        return LEFT + (RIGHT - LEFT) * (np.log(x) - math.log(least_x)) / (math.log(most_x) - math.log(least_x))
+    def draw(axes):
+        for o, look in zip(given, ({"color": BEFORE, "lw": 1}, {"color": INK, "lw": 0.9, "ls": "--"})):
+            axes.loglog(o.levels[0], np.maximum(o.levels[1], least_y), **look)
+        axes.loglog(outcome.levels[0], np.maximum(outcome.levels[1], least_y), color=color(outcome), lw=1.8)
+        axes.set(xlim=(least_x, most_x), ylim=(least_y, most_y), xlabel="wavelength",
+                 xticks=round_values(least_x, most_x), yticks=round_values(least_y, most_y))  # fmt: skip
 
-    def up(y):
-        y = np.log(np.maximum(y, least_y))
-        return BOTTOM - (BOTTOM - TOP) * (y - math.log(least_y)) / (math.log(most_y) - math.log(least_y))
-
-    kinds = ["before", "truth"]
-    lines = [polyline(across(o.levels[0]), up(o.levels[1]), k) for o, k in zip(given, kinds)]
-    lines.append(polyline(across(outcome.levels[0]), up(outcome.levels[1]), "after"))
-    marks = ticks(round_values(least_x, most_x), across, True) + ticks(round_values(least_y, most_y), up, False)
-    axis = f'<text class="name" x="{(LEFT + RIGHT) / 2}" y="{HEIGHT - 2}" text-anchor="middle">wavelength</text>'
-    return frame(f"Detail by wavelength, before and after {outcome.title}", marks + "".join(lines) + axis)
+    return drawn(draw, f"Detail by wavelength, before and after {outcome.title}")
 
 
 def share(shapes):
@@ -90,28 +92,12 @@ def share(shapes):
 
 def shapes(outcome, before, most):
     """Histogram of the shapes of triangles: before filled, after as a line."""
-    most = round_up(most)
+    most, edges = round_up(most), np.linspace(0, 1, BINS + 1)
 
-    def steps(values):
-        xs = LEFT + (RIGHT - LEFT) * np.repeat(np.arange(BINS + 1), 2)[1:-1] / BINS
-        return xs, BOTTOM - (BOTTOM - TOP) * np.repeat(values, 2) / most
+    def draw(axes):
+        axes.stairs(share(before.shapes), edges, fill=True, color=FILLED)
+        axes.stairs(share(outcome.shapes), edges, baseline=None, color=color(outcome), lw=1.8)
+        axes.set(xlim=(0, 1), ylim=(0, most), xticks=(0, 0.5, 1), yticks=(most / 2, most),
+                 xlabel="shape; up: percent of triangles")  # fmt: skip
 
-    xs, ys = steps(share(before.shapes))
-    filled = f'<polygon class="filled" points="{LEFT},{BOTTOM} {" ".join(f"{x:.1f},{y:.1f}" for x, y in zip(xs, ys))} {RIGHT},{BOTTOM}"/>'
-    marks = ticks((0, 0.5, 1), lambda x: LEFT + (RIGHT - LEFT) * x, True)
-    marks += ticks((most / 2, most), lambda y: BOTTOM - (BOTTOM - TOP) * y / most, False)
-    axis = f'<text class="name" x="{(LEFT + RIGHT) / 2}" y="{HEIGHT - 2}" text-anchor="middle">shape; up: percent of triangles</text>'
-    return frame(
-        f"Shape of the triangles before and after {outcome.title}",
-        filled + marks + polyline(*steps(share(outcome.shapes)), "after") + axis,
-    )
-
-
-def legend(colors, labels):
-    """A band of colours with a label at its left, middle and right."""
-    stops = ", ".join("#" + "".join(f"{round(255 * c):02x}" for c in color) for color in colors)
-    return (
-        f'<div class="legend"><i style="background:linear-gradient(90deg,{stops})"></i>'
-        + "".join(f"<span>{html.escape(label)}</span>" for label in labels)
-        + "</div>"
-    )
+    return drawn(draw, f"Shape of the triangles before and after {outcome.title}")
