@@ -106,7 +106,7 @@ def checkered(title, words, ms):
 # Filter: how the input is made and looks, what is said of it; parameters; how the result looks, what is said of it.
 PAIRS = {
     "compute_multires_pyramid": None,  # levels()
-    "generate_multires_level": (document, meshed, "", {"level": 9}, meshed, ", level 9"),
+    "generate_multires_level": (document, meshed, "", {"level": 4}, meshed, ", level 4"),
     "compute_scalar_multires_detail_per_vertex": (
         document,
         shaded,
@@ -207,7 +207,7 @@ def pair(name, v, f):
 
 def levels(v, f):
     panels = []
-    for level in (0, 9):
+    for level in (0, 4):
         ms = document(v, f)
         ms.apply_filter("generate_multires_level", level=level, smoothed=True)
         report = ms.apply_filter("compute_multires_pyramid")

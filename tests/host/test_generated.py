@@ -71,6 +71,25 @@ def test_reference_cites_every_paper_whole(row):
     assert cited == [f'- {authors}, "{title}", {where}' for authors, title, where in citations(row["info"])]
 
 
+def test_every_kind_of_parameter_is_written():
+    """Those that no filter may have yet, too."""
+    kinds = [{"name": "other", "type": "layer", "value": None}, {"name": "at", "type": "point", "value": [0, 1, 2.5]},
+             {"name": "along", "type": "direction", "value": [0, 0, 1], "derived": True},
+             {"name": "turn", "type": "angle", "value": 45, "least": 0, "most": 180}]  # fmt: skip
+    said = {"label": "Label", "tooltip": "What it does.", "advanced": False}
+    row = {"name": "Multiresolution: Kinds", "python_name": "kinds", "returns": [], "parameters": [k | said for k in kinds],
+           "info": 'Does it.<br><br>See <i>Anybody</i>, <b>"A Title"</b>, SIGGRAPH 1999.'}  # fmt: skip
+    rows = [*generate.tables(BUILD), row]
+    reference, module = generate.reference(rows), generate.python_module(rows)
+    for words in ("`other` | from the mesh | a layer", "`at` | 0, 1, 2.5 | three numbers",
+                  "`along` | from the mesh | three numbers", "`turn` | 45 | number, 0 to 180"):  # fmt: skip
+        assert f"| {words} |" in reference
+    signature = re.sub(r"\s+", " ", module.split("def kinds(")[1].split("->")[0])
+    assert signature == (" ms: MeshSet, *, other: int | None = None, at: Vector = (0.0, 1.0, 2.5), along: Vector | None = "
+                         "None, turn: float = 45.0, ) ")  # fmt: skip
+    compile(module, "_filters.py", "exec")
+
+
 @pytest.mark.parametrize(
     "name",
     [

@@ -181,13 +181,13 @@ import pymeshlab_multires as multires
 
 ms = pymeshlab.MeshSet(verbose={verbose})
 ms.load_new_mesh({folder!r} + "/mesh.ply")
-for wrong in (lambda: multires.low_pass(ms, softness=-1), lambda: multires.denoise(ms, threshold=-1)):
+for name in ("low_pass", "enhance"):
     try:
-        wrong()
+        {call}
         sys.exit("no error")
     except pymeshlab.PyMeshLabException:
-        pass
-del ms, wrong
+        {then}
+del ms
 for _ in range(100):
     for kind in ("off", "ply", "obj", "stl"):
         ms = pymeshlab.MeshSet(verbose=False)
@@ -198,14 +198,19 @@ ms.print_status()  # C++'s standard output is as it was
 """
 
 
+BY_PACKAGE = ("getattr(multires, name)(ms, softness=-1)", "pass")
+BY_HAND = ('ms.apply_filter("apply_coord_multires_" + name, softness=-1)', "pymeshlab.MeshSet().create_cube()")
+
+
 @pytest.mark.parametrize("verbose", [False, True])
-def test_after_an_error_and_with_its_document_gone_files_load(multires, meshes, tmp_path, verbose):
+@pytest.mark.parametrize("call, then", [BY_PACKAGE, BY_HAND], ids=["package", "as README says"])
+def test_after_an_error_and_with_its_document_gone_files_load(multires, meshes, tmp_path, verbose, call, then):
     """pymeshlab goes on logging to the document of a filter that failed: loading crashed."""
     ms = document(meshes)
     for kind in ("off", "ply", "obj", "stl"):
         ms.save_current_mesh(str(tmp_path / f"mesh.{kind}"))
     script = AFTER_AN_ERROR.format(package=os.path.dirname(os.path.dirname(multires.__file__)), folder=str(tmp_path),
-                                   verbose=verbose, faces=ms.current_mesh().face_number())  # fmt: skip
+                                   verbose=verbose, call=call, then=then, faces=ms.current_mesh().face_number())  # fmt: skip
     done = subprocess.run([sys.executable, "-c", script], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     assert done.returncode == 0, done.stdout
     assert "Mesh label: mesh.stl" in done.stdout
