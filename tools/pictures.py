@@ -13,7 +13,7 @@ import numpy as np
 import pymeshlab
 
 import rendering
-from generate import FUNCTIONS
+from filter_tables import FUNCTIONS
 from measuring import BUNNY, ROOT, arrays, document, load_plugins, read, with_noise
 from rendering import Panel
 

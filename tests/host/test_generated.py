@@ -81,7 +81,7 @@ def test_every_kind_of_parameter_is_written():
            "info": 'Does it.<br><br>See <i>Anybody</i>, <b>"A Title"</b>, SIGGRAPH 1999.'}  # fmt: skip
     rows = [*generate.tables(BUILD), row]
     reference, module = generate.reference(rows), generate.python_module(rows)
-    for words in ("`other` | from the mesh | a layer", "`at` | 0, 1, 2.5 | three numbers",
+    for words in ("`other` | the first other layer | a layer", "`at` | 0, 1, 2.5 | three numbers",
                   "`along` | from the mesh | three numbers", "`turn` | 45 | number, 0 to 180"):  # fmt: skip
         assert f"| {words} |" in reference
     signature = re.sub(r"\s+", " ", module.split("def kinds(")[1].split("->")[0])
