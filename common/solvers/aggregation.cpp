@@ -103,7 +103,7 @@ Groups group_rows(const Multigrid::Level& level) {
 }
 
 void make_prolongation(Multigrid::Level& level, const Groups& groups) {
-    const double omega = 4.0 / 3 / level.largest;
+    const double omega = 4.0 / 3 / level.largest_stiffness;
     constexpr Index grain = 8192;
     std::vector<Piece> pieces((level.rows + grain - 1) / grain);
     parallel_chunks(level.rows, grain, [&](Index begin, Index end) {

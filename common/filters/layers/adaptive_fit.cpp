@@ -4,6 +4,7 @@
 #include "measure/distance.h"
 #include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
+#include "solvers/conjugate_gradients.h"
 
 #include <algorithm>
 #include <cmath>
@@ -83,8 +84,8 @@ std::vector<Foot> feet_of(const Mesh& input, const std::vector<double>& area, co
 }
 
 /// Least squares for displacements x of the vertices: the sum over the feet of weight (normal . (B x) - gap)^2, where
-/// B x is the displacement of the foot, and stiffness weight_v |x_v|^2 over the vertices. By conjugate gradients with a
-/// diagonal preconditioner.
+/// B x is the displacement of the foot, and stiffness weight_v |x_v|^2 over the vertices. Preconditioned by the
+/// diagonal.
 class Solver {
 public:
     Solver(const Faces& faces, const std::vector<Foot>& feet, const std::vector<std::uint8_t>& fixed, Index vertices)
@@ -109,56 +110,46 @@ public:
     Positions solve(int steps) const {
         std::vector<double> gap(feet_.size());
         for (std::size_t i = 0; i < gap.size(); ++i) gap[i] = feet_[i].gap;
-        Positions x(diagonal_.size(), Vec3::Zero()), r = transposed(gap), z = preconditioned(r), d = z;
-        double rz = dot(r, z);
-        const double enough = 1e-8 * rz;
-        for (int i = 0; i < steps && rz > enough; ++i) {
-            const Positions ad = apply(d);
-            const double along = dot(d, ad);
-            if (!(along > 0)) break;
-            const double alpha = rz / along;
-            for (std::size_t v = 0; v < x.size(); ++v) x[v] += alpha * d[v], r[v] -= alpha * ad[v];
-            z = preconditioned(r);
-            const double next = dot(r, z), beta = next / rz;
-            rz = next;
-            for (std::size_t v = 0; v < x.size(); ++v) d[v] = z[v] + beta * d[v];
-        }
+        Array<double> r(3 * diagonal_.size());
+        transpose(gap, r);
+        Positions x(diagonal_.size(), Vec3::Zero());
+        GradientsOptions options;
+        options.tolerance = 1e-4;
+        options.most_steps = steps;
+        // One system for all coordinates, which normals tie together: a channel of 3 #V rows.
+        conjugate_gradients<1, false, double>(
+            r, options, [&](const Array<double>& p, Array<double>& q) { apply(p, q); },
+            [&](const Array<double>& from, Array<double>& to) {
+                for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i] / std::max(diagonal_[i / 3], 1e-300);
+            },
+            [&](Index i, const double* change) { x[i / 3][i % 3] += *change; }, [](int, double) {});
         return x;
     }
 
 private:
-    Positions transposed(const std::vector<double>& rows) const {
-        Positions out(diagonal_.size(), Vec3::Zero());
+    /// out = sum over the feet of weight B' normal row, 0 at fixed vertices.
+    void transpose(const std::vector<double>& rows, Array<double>& out) const {
+        std::fill(out.begin(), out.end(), 0.0);
         for (std::size_t i = 0; i < feet_.size(); ++i) {
             const Foot& foot = feet_[i];
             if (foot.face < 0) continue;
-            for (int k = 0; k < 3; ++k)
-                out[faces_[foot.face][k]] += foot.weight * foot.share[k] * rows[i] * foot.normal;
+            for (int k = 0; k < 3; ++k) {
+                const Index v = faces_[foot.face][k];
+                if (!fixed_[v]) Eigen::Map<Vec3>(&out[3 * v]) += foot.weight * foot.share[k] * rows[i] * foot.normal;
+            }
         }
-        for (std::size_t v = 0; v < out.size(); ++v)
-            if (fixed_[v]) out[v] = Vec3::Zero();
-        return out;
     }
-    Positions apply(const Positions& x) const {
+    void apply(const Array<double>& p, Array<double>& q) const {
         std::vector<double> rows(feet_.size(), 0);
         parallel_for(static_cast<Index>(rows.size()), [&](Index i) {
             const Foot& foot = feet_[i];
             if (foot.face < 0) return;
-            for (int k = 0; k < 3; ++k) rows[i] += foot.share[k] * foot.normal.dot(x[faces_[foot.face][k]]);
+            for (int k = 0; k < 3; ++k)
+                rows[i] += foot.share[k] * foot.normal.dot(Eigen::Map<const Vec3>(&p[3 * faces_[foot.face][k]]));
         });
-        Positions out = transposed(rows);
-        for (std::size_t v = 0; v < out.size(); ++v)
-            if (!fixed_[v]) out[v] += spring_[v] * x[v];
-        return out;
-    }
-    Positions preconditioned(Positions r) const {
-        for (std::size_t v = 0; v < r.size(); ++v) r[v] /= std::max(diagonal_[v], 1e-300);
-        return r;
-    }
-    static double dot(const Positions& a, const Positions& b) {
-        double sum = 0;
-        for (std::size_t v = 0; v < a.size(); ++v) sum += a[v].dot(b[v]);
-        return sum;
+        transpose(rows, q);
+        for (std::size_t i = 0; i < q.size(); ++i)
+            if (!fixed_[i / 3]) q[i] += spring_[i / 3] * p[i];
     }
 
     const Faces& faces_;
