@@ -65,11 +65,12 @@ def reference(rows):
         "",
         "Written by `tools/generate.py` from the filter tables; please change those.",
         "",
-        "The name in the menu is the one in `.mlx` scripts; the second one is for `MeshSet.apply_filter` of pymeshlab, the",
-        "third is the typed function of the Python package (`python/`). *From the mesh*: the default is derived from the mesh",
-        "(lengths from its size and density, *only on selection* from whether there is a selection, attributes from what",
-        "there is). Parameters under *Advanced* are folded away in MeshLab's dialog. A key with `*` stands for one for each",
-        "attribute: `color`, `quality`, `texcoord`, `custom_NAME`.",
+        "Each filter has three names: that of the menu and of `.mlx` scripts, that for `MeshSet.apply_filter` of pymeshlab, and",
+        "that of its function in the Python package (`python/`), where the parameters of Build Pyramid are the fields of",
+        "`Pyramid`. *From the mesh*: the default is derived from the mesh (lengths from its size and density, *only on",
+        "selection* from whether there is a selection, attributes from which there are). MeshLab's dialog folds the parameters",
+        "under *Advanced* away. A key with `*` stands for one key for each attribute: `color`, `quality`, `texcoord`,",
+        "`custom_NAME`.",
         "",
     ]
     out += [f"- [{r['name'].removeprefix('Multiresolution: ')}](#{r['python_name']})" for r in rows]
