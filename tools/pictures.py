@@ -115,7 +115,7 @@ PAIRS = {
         quality,
         "1 to 6 % of the box, signed",
     ),
-    "apply_coord_multires_low_pass": (document, shaded, "", {**PERCENT, "cutoff": 4}, shaded, "cutoff 4 % of the box"),
+    "apply_coord_multires_low_pass": (document, shaded, "", {**PERCENT, "cutoff": 8}, shaded, "cutoff 8 % of the box"),
     "apply_coord_multires_stop_band": (
         document,
         shaded,
@@ -136,11 +136,11 @@ PAIRS = {
         document,
         shaded,
         "",
-        {"gain_1": 0, "gain_2": 0, "gain_3": 0, "gain_4": 3, "gain_5": 2.5},
+        {"gain_1": 0, "gain_2": 0.5, "gain_3": 3, "gain_4": 3},
         shaded,
-        "gains 0 0 0 3 2.5 1 1 1",
+        "gains 0 0.5 3 3 1 1 1 1",
     ),
-    "apply_coord_multires_unsharp": (document, shaded, "", {}, shaded, "strength 2, 10 steps: the defaults"),
+    "apply_coord_multires_unsharp": (document, shaded, "", {"xi": 3}, shaded, "xi 3, 10 steps"),
     "apply_coord_multires_denoise": (noisy, shaded, "noise of 0.2 edge lengths", {}, shaded, "no parameter given"),
     "apply_attributes_multires_relaxation": (
         with_colors,
