@@ -116,13 +116,13 @@ def report_class(row):
 
 def pyramid_class(pyramid, shared):
     lines = ["", "", "@dataclasses.dataclass(frozen=True, kw_only=True)", "class Pyramid:"]
-    lines += documented("How a pyramid is built. What is None is the filter's own default; the one named here is that of "
-                        "most filters. A pyramid is kept with its mesh and reused by calls with an equal Pyramid.")  # fmt: skip
-    lines += [""]
+    lines += wrapped(
+        '"""How a pyramid is built. What is None is the filter\'s own default; the one named here is that of most filters.', 4
+    )
+    lines += ["", "    A pyramid is kept with its mesh and reused by calls with an equal Pyramid.", "", "    Args:"]
     for p in pyramid:
-        lines += [f"    {p['name']}: {python_type(p, shared)} | None = None"]
-        lines += documented(f"{meaning(p)} Default: {default_words(p).replace('`', '')}.")
-    return lines
+        lines += wrapped(f"{p['name']}: {meaning(p)} Default: {default_words(p).replace('`', '')}.", 8, 4)
+    return [*lines, '    """', "", *[f"    {p['name']}: {python_type(p, shared)} | None = None" for p in pyramid]]
 
 
 def field_lines(r):

@@ -71,8 +71,9 @@ def test_a_function_has_every_parameter_and_tells_what_it_means(multires, row):
     assert parameters[0] == "ms"
     every = [p for name in parameters[1:] for p in (of_pyramid if name == "pyramid" else [name])]
     assert sorted(every) == sorted(p["name"] for p in row["parameters"])
-    for name in parameters:
-        assert re.search(rf"^        (\w+, )*{name}(, \w+)*: \S", function.__doc__, re.MULTILINE), name
+    documented = [(function, name) for name in parameters] + [(multires.Pyramid, name) for name in of_pyramid]
+    for of, name in documented:
+        assert re.search(rf"^        (\w+, )*{name}(, \w+)*: \S", of.__doc__, re.MULTILINE), name
     assert row["python_name"] in function.__doc__
 
 

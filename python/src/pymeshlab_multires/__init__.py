@@ -5,10 +5,11 @@
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh("scan.ply")
     report = multires.denoise(ms)
+    multires.enhance(ms, gain=2, pyramid=multires.Pyramid(scheme="Roy"))
 
 Importing loads the plugins of the package into pymeshlab. Functions work on the current mesh of the document, take the
-parameters of the filter by name and return its report; a filter that fails raises pymeshlab.PyMeshLabException and
-leaves the document as it was.
+parameters of the filter by name (those of the pyramid as one Pyramid) and return its report; a filter that fails raises
+pymeshlab.PyMeshLabException and leaves the document as it was.
 """
 
 from . import _call

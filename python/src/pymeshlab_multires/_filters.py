@@ -31,43 +31,47 @@ Mode: TypeAlias = Literal["low pass", "stop band", "enhance"]
 @dataclasses.dataclass(frozen=True, kw_only=True)
 class Pyramid:
     """How a pyramid is built. What is None is the filter's own default; the one named here is that of most filters.
-    A pyramid is kept with its mesh and reused by calls with an equal Pyramid."""
+
+    A pyramid is kept with its mesh and reused by calls with an equal Pyramid.
+
+    Args:
+        scheme: Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine structure
+            follows when coarse structure is changed. Default: Guskov.
+        operator: Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape
+            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+            Default: second difference with flaps.
+        presmooth: Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine noise out of
+            coarse levels; 0 is what the papers do. A number, 0 to 1. Default: 0.5.
+        grouping: Independent sets: each level removes about a quarter of the vertices, none of them neighbours (Roy).
+            Sequential: one vertex after the other, cheapest first (Guskov). Default: independent sets.
+        storage: How the pyramid keeps weights and details. Float takes half the memory, for meshes of many millions of
+            vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15. Default: double.
+        sets_per_level: Independent sets only: how many sets, a quarter of the vertices each, a level removes. 2
+            separates bands best; 1 sees most of the noise. A whole number, 1 to 100. Default: 2.
+        level_ratio: Sequential only: share of its vertices that a level keeps, for example 0.8; 0 makes every vertex a
+            level of its own. A number, 0 to 0.99. Default: 0.
+        base_vertices: Vertices at which the pyramid stops. A whole number, at least 4. Default: 100.
+        length_weight: Weight of edge length against the quadric error when vertices are chosen: 0 keeps vertices where
+            the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000. Default: 0.1.
+        normal_limit: Degrees by which removing a vertex may turn a face at most. A number, 1 to 180. Default: 60.
+        features: Edges that are not smoothed across: none; those where the normals of the two faces differ by more than
+            the feature angle; those not marked as faux; those selected on their faces. Default: none.
+        feature_angle: Degrees between the normals of two faces above which their edge is sharp. A number, 0.01 to
+            179.99. Default: 40.
+    """
 
     scheme: Scheme | None = None
-    """Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine structure follows when
-    coarse structure is changed. Default: Guskov."""
     operator: Operator | None = None
-    """Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape best;
-    cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift. Default: second
-    difference with flaps."""
     presmooth: float | None = None
-    """Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine noise out of coarse
-    levels; 0 is what the papers do. A number, 0 to 1. Default: 0.5."""
     grouping: Grouping | None = None
-    """Independent sets: each level removes about a quarter of the vertices, none of them neighbours (Roy).
-    Sequential: one vertex after the other, cheapest first (Guskov). Default: independent sets."""
     storage: Storage | None = None
-    """How the pyramid keeps weights and details. Float takes half the memory, for meshes of many millions of
-    vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15. Default: double."""
     sets_per_level: int | None = None
-    """Independent sets only: how many sets, a quarter of the vertices each, a level removes. 2 separates bands best;
-    1 sees most of the noise. A whole number, 1 to 100. Default: 2."""
     level_ratio: float | None = None
-    """Sequential only: share of its vertices that a level keeps, for example 0.8; 0 makes every vertex a level of
-    its own. A number, 0 to 0.99. Default: 0."""
     base_vertices: int | None = None
-    """Vertices at which the pyramid stops. A whole number, at least 4. Default: 100."""
     length_weight: float | None = None
-    """Weight of edge length against the quadric error when vertices are chosen: 0 keeps vertices where the surface
-    bends, 1 keeps them evenly spaced. A number, 0 to 1000. Default: 0.1."""
     normal_limit: float | None = None
-    """Degrees by which removing a vertex may turn a face at most. A number, 1 to 180. Default: 60."""
     features: Features | None = None
-    """Edges that are not smoothed across: none; those where the normals of the two faces differ by more than the
-    feature angle; those not marked as faux; those selected on their faces. Default: none."""
     feature_angle: float | None = None
-    """Degrees between the normals of two faces above which their edge is sharp. A number, 0.01 to 179.99. Default:
-    40."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
