@@ -19,8 +19,6 @@ using namespace fixtures;
 
 namespace {
 
-const double pi = std::acos(-1.0);
-
 Eigen::MatrixXd dense(const Stiffness& c) {
     Eigen::MatrixXd full = Eigen::MatrixXd::Zero(c.rows(), c.rows());
     for (Index i = 0; i < c.rows(); ++i)
