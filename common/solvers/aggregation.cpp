@@ -10,7 +10,7 @@ namespace multires {
 namespace {
 
 /// An entry is strong if |c_ij| > this x sqrt(c_ii c_jj).
-constexpr float strong_share = 0.02F;
+constexpr float strong_share = 0.1F;
 
 bool is_strong(const Multigrid::Level& level, Index i, Index k) {
     const float c = level.stiffness[k];
