@@ -151,6 +151,64 @@ void apply_stiffness(const Stiffness& c, const double* f, int width, double* out
     });
 }
 
+Stiffness bending(const Stiffness& c) {
+    const Index n = c.rows();
+    double mean = 0;
+    for (const double m : c.mass) mean += m / n;
+    Array<double> diagonal(n), inverse(n);
+    parallel_for(n, [&](Index i) {
+        diagonal[i] = 0;
+        for (Index k = c.offset[i]; k < c.offset[i + 1]; ++k) diagonal[i] += c.weight[k];
+        inverse[i] = mean > 0 ? 1 / std::max(c.mass[i] / mean, 1e-6) : 1;
+    });
+    constexpr Index grain = 4096;
+    std::vector<std::vector<std::pair<Index, double>>> pieces((n + grain - 1) / grain);
+    Stiffness square;
+    square.mass = c.mass;
+    square.offset.resize(static_cast<std::size_t>(n) + 1);
+    // Calls visit(column, entry of C) for a row in order of columns, itself among them: then both entries of a pair of
+    // rows are the same sums of the same products.
+    const auto visit_row = [&](Index i, const auto& visit) {
+        Index k = c.offset[i];
+        for (; k < c.offset[i + 1] && c.column[k] < i; ++k) visit(c.column[k], -c.weight[k]);
+        visit(i, diagonal[i]);
+        for (; k < c.offset[i + 1]; ++k) visit(c.column[k], -c.weight[k]);
+    };
+    parallel_chunks(n, grain, [&](Index begin, Index end) {
+        std::vector<std::pair<Index, double>>& piece = pieces[begin / grain];
+        std::vector<std::pair<Index, double>> row;
+        for (Index i = begin; i < end; ++i) {
+            row.clear();
+            visit_row(i, [&](Index k, double a) {
+                visit_row(k, [&](Index j, double b) { row.emplace_back(j, a * b * inverse[k]); });
+            });
+            std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+            const std::size_t from = piece.size();
+            for (const auto& [j, value] : row) {
+                if (j == i) continue;
+                if (piece.size() > from && piece.back().first == j) {
+                    piece.back().second -= value;
+                } else {
+                    piece.emplace_back(j, -value);
+                }
+            }
+            square.offset[i + 1] = static_cast<Index>(piece.size() - from);
+        }
+    });
+    square.offset[0] = 0;
+    for (Index i = 0; i < n; ++i) square.offset[i + 1] += square.offset[i];
+    square.column.resize(square.offset[n]);
+    square.weight.resize(square.offset[n]);
+    parallel_for(
+        static_cast<Index>(pieces.size()),
+        [&](Index p) {
+            Index at = square.offset[p * grain];
+            for (const auto& [j, w] : pieces[p]) square.column[at] = j, square.weight[at++] = w;
+        },
+        1);
+    return square;
+}
+
 Components components(const Stiffness& c) {
     Components found;
     found.of.assign(c.rows(), -1);

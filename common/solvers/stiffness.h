@@ -41,9 +41,15 @@ struct Stiffness {
 /// Cost: linear, parallel; O(d log d) for a vertex of d faces. Same bits for any number of threads.
 Stiffness stiffness(const Mesh& mesh, const StiffnessOptions& options = {});
 
-/// M^-1-free product: out = C f for `width` interleaved channels. Constants give exactly 0.
+/// out = C f for `width` interleaved channels. Constants give exactly 0.
 /// @param f, out  #V by width, not the same
 void apply_stiffness(const Stiffness& c, const double* f, int width, double* out);
+
+/// The matrix of the bending energy, C M^-1 C, in the same form: symmetric, semidefinite, rows that sum to 0. f' C M^-1
+/// C f is the integral of the squared Laplacian. In units of the mean mass, so that entries do not depend on scale: the
+/// matrix times the mean mass. Masses below 1e-6 of the mean count as that. About 19 entries a row. Cost: linear,
+/// parallel; same bits for any number of threads.
+Stiffness bending(const Stiffness& c);
 
 /// Number of the component of each vertex over the edges of C, from 0 in order of their first vertices; vertices
 /// without a neighbour are components of their own.

@@ -212,6 +212,10 @@ System::System(const Mesh& mesh, const SystemOptions& options, const Progress& p
         mass += matrices_.mass[i];
     }
     mass_scale_ = mass > 0 ? static_cast<double>(n) / mass : 1;
+    if (options.bending) {
+        matrices_ = bending(matrices_);
+        unit_ = mass_scale_;
+    }
     grid_ = std::make_unique<const Multigrid>(matrices_, active_, mass_scale_, progress.part(0.3, 1));
 }
 
@@ -255,6 +259,7 @@ Solved System::solve(double mass, double stiffness, ConstRows rhs, Rows x, const
     require_shape(ConstRows(x), matrices_, x.width);
     require_finite(rhs, "The right-hand side");
     require_finite(x, "The first guess");
+    stiffness *= unit_;
     Array<double> residual(static_cast<std::size_t>(x.rows) * x.width);
     apply_stiffness(matrices_, x.values, x.width, residual.data());
     parallel_for(x.rows, [&](Index i) {
@@ -279,6 +284,7 @@ Solved System::solve(double mass, double stiffness, ConstRows rhs, Rows x, const
 Solved System::rational(const std::vector<Term>& terms, double s, ConstRows f, Rows out, const SolveOptions& options,
                         const Progress& progress) const {
     require(s >= 0 && std::isfinite(s), "The weight of the stiffness must not be negative.");
+    s *= unit_;
     double constant = 0;
     for (const Term& term : terms) {
         require(term.pole.real() >= 0 && std::abs(term.pole) > 0 && std::isfinite(std::abs(term.pole)),

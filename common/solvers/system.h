@@ -41,11 +41,14 @@ inline ConstRows::ConstRows(const Rows& r) : values(r.values), rows(r.rows), wid
 struct SystemOptions {
     StiffnessOptions stiffness;
     std::vector<std::uint8_t> fixed;  ///< #V or empty: 1 for vertices whose values are given
+    /// C M^-1 C takes the place of C everywhere: the bending energy, of least which surfaces are smooth across fixed
+    /// vertices. Takes three times the memory, and tens of steps more the fewer vertices are fixed.
+    bool bending = false;
 };
 
 struct SolveOptions {
     double tolerance = 1e-8;  ///< of |residual| / |residual of the first guess|, every channel, in (0, 1)
-    int most_steps = 200;
+    int most_steps = 1000;
 };
 
 /// One term of a rational filter.
@@ -97,6 +100,7 @@ public:
     Solved low_pass(double wave_number, ConstRows f, Rows out, const SolveOptions& options = {},
                     const Progress& progress = {}) const;
 
+    /// M, and C or what takes its place (bending()).
     const Stiffness& matrices() const { return matrices_; }
 
 private:
@@ -107,6 +111,7 @@ private:
     std::vector<std::uint8_t> fixed_;
     Array<std::uint8_t> active_;  ///< free vertices with faces
     double mass_scale_ = 1;       ///< makes the mean mass 1
+    double unit_ = 1;             ///< what matrices_ is to be multiplied by to be the stiffness
     Index without_faces_ = 0;
     std::unique_ptr<const Multigrid> grid_;
 };

@@ -224,6 +224,45 @@ TEST(System, RationalFiltersHaveTheGainsOfTheirTerms) {
     for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(g[i], expected[i].real(), 1e-8);
 }
 
+TEST(System, BendingIsTheSquareOfTheStiffness) {
+    for (const auto& [name, mesh] : all_meshes()) {
+        const std::size_t n = mesh.positions.size();
+        const Stiffness c = stiffness(mesh);
+        const double mean = masses(c).mean();
+        if (n > 700 || !(masses(c).minCoeff() > 1e-5 * mean)) continue;
+        const Stiffness square = bending(c);
+        const Eigen::MatrixXd full = dense(square),
+                              expected = mean * dense(c) * masses(c).cwiseInverse().asDiagonal() * dense(c);
+        EXPECT_EQ(full, full.transpose()) << name;
+        EXPECT_LT((full - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff()) << name;
+    }
+}
+
+TEST(System, LinearFunctionsOnPlanesHaveNoBendingEnergy) {
+    // Fixed: the rim and its neighbours, whose conditions are not those of the plane, and every ninth vertex.
+    for (const Index size : {12, 60}) {
+        const Mesh mesh = shapes::plane(size, {0.3, 0.3, 3});
+        std::vector<std::uint8_t> fixed = rim(mesh);
+        const std::vector<std::uint8_t> first = fixed;
+        for (const Face& f : mesh.faces)
+            for (const Index v : f) fixed[v] |= first[f[0]] | first[f[1]] | first[f[2]];
+        for (std::size_t i = 0; i < fixed.size(); i += 9) fixed[i] = 1;
+        for (const double scale : {1e-40, 1.0, 1e40}) {
+            Motion motion;
+            motion.scale = scale;
+            motion.offset *= scale;
+            const Mesh moved = motion(mesh);
+            const System system(moved, {{}, fixed, true});
+            Positions x = moved.positions;
+            for (std::size_t i = 0; i < x.size(); ++i)
+                if (!fixed[i]) x[i] = motion(Vec3(0.5, 0.5, 0.2));
+            const Solved solved = system.solve(0, 1, Positions(x.size(), Vec3::Zero()), x);
+            EXPECT_TRUE(solved.converged);
+            EXPECT_LT(difference(x, moved.positions), 1e-6 * scale) << solved.steps;
+        }
+    }
+}
+
 TEST(System, ConstantsStay) {
     for (const auto& [name, mesh] : every_class()) {
         const System system(mesh);
