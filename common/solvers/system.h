@@ -42,7 +42,7 @@ struct SystemOptions {
     StiffnessOptions stiffness;
     std::vector<std::uint8_t> fixed;  ///< #V or empty: 1 for vertices whose values are given
     /// C M^-1 C takes the place of C everywhere: the bending energy, of least which surfaces are smooth across fixed
-    /// vertices. Takes three times the memory, and tens of steps more the fewer vertices are fixed.
+    /// vertices. Takes three times the memory, and 26, 70, 170 steps if every 4th, 20th, 200th is fixed.
     bool bending = false;
 };
 
@@ -74,7 +74,7 @@ struct Solved {
 ///
 /// Conjugate gradients, preconditioned by one V-cycle (Multigrid); below 300 vertices that is a direct solve by Eigen's
 /// SimplicialLDLT (SparseLU if complex). The number of steps hardly depends on the number of vertices.
-/// Set-up and a step are linear in #V. Memory: about 250 bytes a vertex, and 250 more while it solves.
+/// Set-up and a step are linear in #V. Memory: about 250 bytes a vertex, and up to 300 more while it solves.
 /// The same bits for any number of threads. Several solves at the same time are allowed.
 class System {
 public:
