@@ -32,7 +32,7 @@ struct Session {
     Progress progress;
     /// The pyramid kept with the layer by an earlier call of any of our plugins; may be null or stale (its content
     /// hash decides). A filter that builds one puts it here; the host keeps it with the mesh if the call succeeds.
-    std::shared_ptr<const KeptPyramid> pyramid;
+    std::shared_ptr<const Pyramid> pyramid;
     /// The shape the layer had before an earlier call of any of our plugins first moved it; null if none did. The host
     /// keeps it up to date (see original.h).
     std::shared_ptr<const Original> original;
@@ -41,7 +41,7 @@ struct Session {
 /// The session's pyramid if it was built from this very layer with these options, a new one otherwise (put into the
 /// session). Tells `report` which: pyramid_reused.
 /// @throws InputError for a mesh without faces, with NaN, ... (see require_usable) or options out of range
-std::shared_ptr<const KeptPyramid> pyramid_of(const Layer& layer, const PyramidOptions& options, Session& session,
-                                              Report& report);
+std::shared_ptr<const Pyramid> pyramid_of(const Layer& layer, const PyramidOptions& options, Session& session,
+                                          Report& report);
 
 }  // namespace multires

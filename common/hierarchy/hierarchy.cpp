@@ -78,10 +78,12 @@ Hierarchy assemble(std::vector<Step> steps, const HierarchyOptions& options) {
         }
         level.odd.first = level.coarse;
         if (options.mean_edges) h.mean_edge.push_back(steps[first].mean_edge);
-        const Array<Index> rows = rows_between(place[first], 0, level.coarse);
-        level.even = renumbered(steps[first].rings, rows, place[first], level.fine);
-        level.even.vertices.resize(rows.size());
-        for (std::size_t r = 0; r < rows.size(); ++r) level.even.vertices[r] = place[first][rows[r]];
+        if (options.even_rings) {
+            const Array<Index> rows = rows_between(place[first], 0, level.coarse);
+            level.even = renumbered(steps[first].rings, rows, place[first], level.fine);
+            level.even.vertices.resize(rows.size());
+            for (std::size_t r = 0; r < rows.size(); ++r) level.even.vertices[r] = place[first][rows[r]];
+        }
         h.size.push_back(level.coarse);
         h.levels.push_back(std::move(level));
         for (int s = first; s < last; ++s) steps[s] = Step(), place[s] = Array<Index>();
@@ -136,24 +138,38 @@ Hierarchy build_hierarchy(Rings rings, const Positions& positions, const Hierarc
     return h;
 }
 
-LevelMesh prefix_mesh(const Hierarchy& h, const Faces& faces, Index count) {
-    // Where a vertex has gone once only `count` places are left; parents come before their children.
-    std::vector<Index> gone_to(h.vertices());
-    for (Index p = 0; p < h.vertices(); ++p) gone_to[p] = p < count ? p : gone_to[h.parent[p]];
-    std::vector<Index> of_input(h.vertices());
-    for (Index p = 0; p < h.vertices(); ++p) of_input[h.order[p]] = gone_to[p];
+LevelMesh mesh_of_places(const Hierarchy& h, const Faces& faces, const Array<Index>& gone_to) {
+    Array<Index> of_input(h.vertices());
+    parallel_for(h.vertices(), [&](Index p) { of_input[h.order[p]] = gone_to[p]; });
     LevelMesh mesh;
     for (std::size_t f = 0; f < faces.size(); ++f) {
-        const Face g = {of_input[faces[f][0]], of_input[faces[f][1]], of_input[faces[f][2]]};
-        if (g[0] == g[1] || g[1] == g[2] || g[2] == g[0]) continue;
+        const Face& was = faces[f];
+        const Face g = {of_input[was[0]], of_input[was[1]], of_input[was[2]]};
+        const bool degenerate = g[0] == g[1] || g[1] == g[2] || g[2] == g[0];
+        if (degenerate && (h.order[g[0]] != was[0] || h.order[g[1]] != was[1] || h.order[g[2]] != was[2])) continue;
         mesh.faces.push_back(g);
         mesh.source_face.push_back(static_cast<Index>(f));
     }
     return mesh;
 }
 
+LevelMesh prefix_mesh(const Hierarchy& h, const Faces& faces, Index count) {
+    return mesh_of_places(h, faces, places_left(h, [&](Index place) { return place < count; }));
+}
+
 LevelMesh level_mesh(const Hierarchy& h, const Faces& faces, std::size_t level) {
     return prefix_mesh(h, faces, h.size[level]);
+}
+
+std::size_t bytes(const Hierarchy& h) {
+    const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+    const auto of_rings = [&](const Rings& r) {
+        return of(r.offset) + of(r.neighbor) + of(r.flap) + of(r.feature) + of(r.kind) + of(r.vertices);
+    };
+    std::size_t sum =
+        of(h.order) + of(h.parent) + of(h.size) + of(h.levels) + of(h.positions) + of(h.mean_edge) + of_rings(h.base);
+    for (const Level& level : h.levels) sum += of_rings(level.odd) + of_rings(level.even) + of(level.sets);
+    return sum;
 }
 
 }  // namespace multires

@@ -34,6 +34,7 @@ struct HierarchyOptions {
     double length_weight = 0.1;
     int seed = 0;             ///< other than 0: costs vary at random by up to half, for another hierarchy
     bool flaps = true;        ///< store Rings::flap, for operators that need the 1-ring with flaps
+    bool even_rings = true;   ///< fill Level::even
     bool mean_edges = false;  ///< independent sets: fill Hierarchy::mean_edge
 };
 
@@ -46,6 +47,7 @@ struct Level {
     Rings odd;
     /// Rings in the mesh of `fine` vertices of the even vertices (Rings::vertices): all of them in order of the input,
     /// which is kind to caches where places are not; or, with one vertex per level, only those next to the odd vertex.
+    /// No rows without HierarchyOptions::even_rings.
     Rings even;
     /// Bounds of sets of odd rows, from 0 to odd.rows(). Entries and flaps of a row are even or belong to sets before
     /// its own, so the rows of a set can be predicted in any order.
@@ -95,11 +97,28 @@ struct LevelMesh {
     std::vector<Index> source_face;
 };
 
-/// @param faces  those the rings came from, with input vertex indices
-/// @param level  0 (all faces that count) .. levels.size() (the base)
+/// Where every place has gone once only some are left: to its nearest ancestor that stays.
+/// @param stays  bool(Index place), true for the base
+template <class Stays>
+Array<Index> places_left(const Hierarchy& h, const Stays& stays) {
+    Array<Index> gone_to(h.vertices());  // parents come before their children
+    for (Index p = 0; p < h.vertices(); ++p) gone_to[p] = stays(p) ? p : gone_to[h.parent[p]];
+    return gone_to;
+}
+
+/// The mesh over the places left, in order of the input: faces that lose a corner are dropped. Faces of the input that
+/// repeat an index stay if all their vertices do, so that with all places it is the input.
+/// @param faces     those the rings came from, with input vertex indices
+/// @param gone_to   #V, see places_left()
+LevelMesh mesh_of_places(const Hierarchy& hierarchy, const Faces& faces, const Array<Index>& gone_to);
+
+/// @param level  0 (the input) .. levels.size() (the base)
 LevelMesh level_mesh(const Hierarchy& hierarchy, const Faces& faces, std::size_t level);
 
 /// The mesh of the first `count` places, count >= the base's size.
 LevelMesh prefix_mesh(const Hierarchy& hierarchy, const Faces& faces, Index count);
+
+/// Memory a hierarchy holds, in bytes.
+std::size_t bytes(const Hierarchy& hierarchy);
 
 }  // namespace multires

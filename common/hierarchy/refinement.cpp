@@ -1,7 +1,5 @@
 #include "hierarchy/refinement.h"
 
-#include "base/parallel.h"
-
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -42,19 +40,7 @@ std::vector<std::uint8_t> inserted(const Insertion& insertion, Index count) {
 }
 
 LevelMesh mesh_of_set(const Hierarchy& h, const Faces& faces, const std::vector<std::uint8_t>& in) {
-    std::vector<Index> gone_to(h.vertices()), of_input(h.vertices());
-    for (Index p = 0; p < h.vertices(); ++p) gone_to[p] = in[p] ? p : gone_to[h.parent[p]];
-    parallel_for(h.vertices(), [&](Index p) { of_input[h.order[p]] = gone_to[p]; });
-    LevelMesh mesh;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        const Face& was = faces[f];
-        const Face g = {of_input[was[0]], of_input[was[1]], of_input[was[2]]};
-        const bool degenerate = g[0] == g[1] || g[1] == g[2] || g[2] == g[0];
-        if (degenerate && (h.order[g[0]] != was[0] || h.order[g[1]] != was[1] || h.order[g[2]] != was[2])) continue;
-        mesh.faces.push_back(g);
-        mesh.source_face.push_back(static_cast<Index>(f));
-    }
-    return mesh;
+    return mesh_of_places(h, faces, places_left(h, [&](Index place) { return in[place] != 0; }));
 }
 
 }  // namespace multires

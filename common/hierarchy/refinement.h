@@ -33,10 +33,7 @@ Insertion insertion_order(const Hierarchy& hierarchy, std::vector<double> import
 /// @param count  at least the base's size
 std::vector<std::uint8_t> inserted(const Insertion& insertion, Index count);
 
-/// The mesh of a closed set: faces over places, and which input face each comes from, in order of the input.
-///
-/// Every corner goes to the nearest ancestor that is in the set; faces that lose a corner are dropped. Faces of the
-/// input that repeat an index stay if all their vertices do.
+/// The mesh of a closed set, see mesh_of_places().
 /// @param in     #V by place, 1 if in the set; closed
 /// @param faces  those the hierarchy's rings came from, with input vertex indices
 LevelMesh mesh_of_set(const Hierarchy& hierarchy, const Faces& faces, const std::vector<std::uint8_t>& in);

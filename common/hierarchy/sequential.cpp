@@ -111,7 +111,8 @@ private:
         record(odd_, v);
         removed_.push_back(v);
         if (single())
-            for (Index j = 0; j < r.size; ++j) record(even_, r.vertex[j]), even_vertex_.push_back(r.vertex[j]);
+            for (Index j = 0; j < r.size && options_.even_rings; ++j)
+                record(even_, r.vertex[j]), even_vertex_.push_back(r.vertex[j]);
         parent_[v] = u;
         const auto ring_of = [&](Index i) { return ring(i); };
         const auto odd_parent = [&](Index x) { return x == v ? u : -1; };
@@ -166,7 +167,7 @@ private:
         odd_ = Rings();
         even_ = Rings();
         even_vertex_.clear();
-        if (single()) return;
+        if (single() || !options_.even_rings) return;
         for (Index i = 0; i < static_cast<Index>(rows_.size()); ++i)
             if (alive_[i]) record(even_, i), even_vertex_.push_back(i);
     }

@@ -13,7 +13,7 @@ namespace {
 /// A limit as octaves of wavelength, finer = smaller, so that all units share one axis.
 class Axis {
 public:
-    Axis(const KeptPyramid& pyramid, Unit unit, double diagonal)
+    Axis(const Pyramid& pyramid, Unit unit, double diagonal)
         : levels_(pyramid.levels()), unit_(unit), diagonal_(diagonal) {}
 
     double octave(double limit) const {
@@ -101,7 +101,7 @@ double in_unit(const Layer& layer, double finest, double times, Unit unit) {
     case Unit::wavelength_percent:
         return times * finest;
     case Unit::level:
-        return std::round(2 * 4.8 / PyramidOptions().sets_per_level * std::log2(times)) / 2;
+        return std::round(2 * 4.8 / PyramidOptions().hierarchy.sets_per_level * std::log2(times)) / 2;
     case Unit::vertices:
         return std::round(static_cast<double>(layer.mesh.positions.size()) / (times * times));
     }
@@ -111,7 +111,7 @@ double in_unit(const Layer& layer, double finest, double times, Unit unit) {
 /// `most` times the finest wave, or less where a small mesh has no room for it: `share` of the octaves it has.
 double times_finest(const Layer& layer, double most, double share) {
     const double vertices = static_cast<double>(layer.mesh.positions.size());
-    const double room = std::sqrt(std::max(1.5, vertices / PyramidOptions().base_vertices));
+    const double room = std::sqrt(std::max(1.5, vertices / PyramidOptions().hierarchy.base_vertices));
     return std::min(most, std::pow(room, share));
 }
 
@@ -130,7 +130,7 @@ double default_cutoff(const Layer& layer, Unit unit) {
     return in_unit(layer, finest_wavelength(layer, unit), times_finest(layer, 4, 0.5), unit);
 }
 
-std::vector<double> band_share(const KeptPyramid& pyramid, const Band& band, double diagonal) {
+std::vector<double> band_share(const Pyramid& pyramid, const Band& band, double diagonal) {
     check(band, diagonal);
     const Axis axis(pyramid, band.unit, diagonal);
     const double none = -std::numeric_limits<double>::infinity();
@@ -153,7 +153,7 @@ std::vector<double> band_share(const KeptPyramid& pyramid, const Band& band, dou
     return share;
 }
 
-std::vector<double> band_gains(const KeptPyramid& pyramid, const Band& band, double diagonal, double gain) {
+std::vector<double> band_gains(const Pyramid& pyramid, const Band& band, double diagonal, double gain) {
     std::vector<double> gains = band_share(pyramid, band, diagonal);
     for (double& g : gains) g = 1 + g * (gain - 1);
     return gains;

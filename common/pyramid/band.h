@@ -26,10 +26,10 @@ struct Band {
 /// Level k holds the waves between its own wavelength and that of level k+1; a level that the edge of the band cuts
 /// belongs to it in part, so that results change steadily with the limits.
 /// @throws InputError if the limits are not finite, out of range or out of order
-std::vector<double> band_share(const KeptPyramid& pyramid, const Band& band, double box_diagonal);
+std::vector<double> band_share(const Pyramid& pyramid, const Band& band, double box_diagonal);
 
 /// Gains for synthesis: 1 outside the band, `gain` inside, between them at its edges.
-std::vector<double> band_gains(const KeptPyramid& pyramid, const Band& band, double box_diagonal, double gain);
+std::vector<double> band_gains(const Pyramid& pyramid, const Band& band, double box_diagonal, double gain);
 
 /// A band that does something useful on the layer: waves of about 2 to 8 times the finest the mesh can carry.
 Band default_band(const Layer& layer, Unit unit);

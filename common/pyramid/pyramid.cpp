@@ -4,10 +4,6 @@
 #include "base/reduce.h"
 #include "measure/measure.h"
 #include "mesh/adjacency.h"
-#include "mesh/validation.h"
-
-#define XXH_INLINE_ALL
-#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,27 +11,13 @@
 namespace multires {
 namespace {
 
+/// The options, with what the scheme and the table of levels need of a hierarchy.
 HierarchyOptions hierarchy_options(const PyramidOptions& o) {
-    HierarchyOptions h;
-    h.grouping = o.grouping;
-    h.sets_per_level = o.sets_per_level;
-    h.level_ratio = o.level_ratio;
-    h.base_vertices = o.base_vertices;
-    h.length_weight = o.length_weight;
-    h.normal_limit_degrees = o.normal_limit;
-    h.seed = o.seed;
-    h.flaps = uses_flaps(o.op);
+    HierarchyOptions h = o.hierarchy;
+    h.flaps = uses_flaps(o.scheme.op);
+    h.even_rings = schemes().at(static_cast<std::size_t>(o.scheme.row)).capabilities.even_rings;
     h.mean_edges = true;
     return h;
-}
-
-RelaxationTransformOptions transform_options(const PyramidOptions& o) {
-    RelaxationTransformOptions t;
-    t.scheme = o.scheme;
-    t.relaxation.op = o.op;
-    t.presmooth = o.presmooth;
-    t.weights = o.storage;
-    return t;
 }
 
 /// Twice the mean edge length of every level.
@@ -72,10 +54,13 @@ double sum_of_squares(const Values& values) {
     });
 }
 
-double rms_length(const Coefficients::Detail& d) {
-    const double sum = sum_of_squares(d.odd.values) + sum_of_squares(d.even.values) + sum_of_squares(d.odd_single) +
-                       sum_of_squares(d.even_single);
-    const std::size_t values = d.odd.values.size() + d.even.values.size() + d.odd_single.size() + d.even_single.size();
+double rms_length(const std::vector<Subband>& subbands) {
+    double sum = 0;
+    std::size_t values = 0;
+    for (const Subband& band : subbands) {
+        sum += sum_of_squares(band.values.values) + sum_of_squares(band.single);
+        values += band.values.values.size() + band.single.size();
+    }
     return values ? std::sqrt(sum / (static_cast<double>(values) / 3)) : 0;
 }
 
@@ -84,91 +69,34 @@ std::vector<LevelInfo> describe(const Hierarchy& h, const Coefficients& c, const
     for (std::size_t k = 0; k < info.size(); ++k) {
         info[k].vertices = h.size[k] - h.isolated;
         info[k].wavelength = wavelength[k];
-        if (k < c.detail.size()) info[k].rms_detail = rms_length(c.detail[k]);
+        if (k < c.level.size()) info[k].rms_detail = rms_length(c.level[k]);
     }
     return info;
 }
 
 }  // namespace
 
-void check(const PyramidOptions& o) {
-    require(o.presmooth >= 0 && o.presmooth <= 1, "presmooth must be between 0 and 1");
-    require(o.sets_per_level >= 1, "sets_per_level must be at least 1");
-    require(o.level_ratio >= 0 && o.level_ratio < 1, "level_ratio must be at least 0 and less than 1");
-    require(o.base_vertices >= 4, "base_vertices must be at least 4");
-    require(o.length_weight >= 0 && std::isfinite(o.length_weight), "length_weight must be a number, 0 or more");
-    require(o.normal_limit > 0 && o.normal_limit <= 180, "normal_limit must be more than 0 and at most 180 degrees");
-}
-
-void mark_features(Rings& rings, const Layer& layer, Features features, double angle) {
-    const auto edges = [&](const std::vector<std::uint8_t>& bits, std::uint8_t flip, const char* what) {
-        require(!bits.empty(), std::string("features: the mesh has no ") + what + " edges");
-        std::vector<std::uint8_t> marked = bits;
-        for (std::uint8_t& b : marked) b ^= flip;
-        mark_features(rings, layer.mesh.faces, marked);
-    };
-    switch (features) {
-    case Features::none:
-        return;
-    case Features::angle:
-        require(angle > 0 && angle < 180, "feature_angle must be between 0 and 180 degrees");
-        return mark_features_by_angle(rings, layer.mesh.positions, angle);
-    case Features::non_faux_edges:
-        return edges(layer.faux_edges, 7, "faux");
-    case Features::selected_edges:
-        return edges(layer.selected_edges, 0, "selected");
-    }
-}
-
-ContentHash content_hash(const Layer& layer, const PyramidOptions& o) {
-    const double options[] = {static_cast<double>(o.scheme),
-                              static_cast<double>(o.op),
-                              o.presmooth,
-                              static_cast<double>(o.grouping),
-                              static_cast<double>(o.sets_per_level),
-                              o.level_ratio,
-                              static_cast<double>(o.base_vertices),
-                              o.length_weight,
-                              o.normal_limit,
-                              static_cast<double>(o.storage),
-                              static_cast<double>(o.features),
-                              o.features == Features::angle ? o.feature_angle : 0,
-                              static_cast<double>(o.seed)};
-    const ContentHash shape = shape_hash(layer.mesh.positions, layer.mesh.faces);
-    XXH3_state_t state;
-    XXH3_128bits_reset(&state);
-    const auto add = [&](const void* data, std::size_t bytes) {
-        if (bytes) XXH3_128bits_update(&state, data, bytes);
-    };
-    add(options, sizeof options);
-    add(shape.data(), sizeof shape);
-    if (o.features == Features::non_faux_edges) add(layer.faux_edges.data(), layer.faux_edges.size());
-    if (o.features == Features::selected_edges) add(layer.selected_edges.data(), layer.selected_edges.size());
-    const XXH128_hash_t hash = XXH3_128bits_digest(&state);
-    return {hash.low64, hash.high64};
-}
-
-KeptPyramid::KeptPyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress)
+Pyramid::Pyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress)
     : hash_(content_hash(layer, options)) {
     const BlockReuse reuse;
     const Progress building = progress.part(0.05, 0.6);
     progress.report(0, "Finding the neighbours");
     Rings rings = vertex_rings(layer.mesh);
-    mark_features(rings, layer, options.features, options.feature_angle);
+    mark_features(rings, layer, options.features.from, options.features.angle);
     hierarchy_ = build_hierarchy(std::move(rings), layer.mesh.positions, hierarchy_options(options),
                                  [&](double f) { building.report(f, "Building the pyramid"); });
     progress.report(0.6, "Computing weights");
-    transform_ = relaxation_transform(hierarchy_, transform_options(options));
+    scheme_ = make_scheme(hierarchy_, options.scheme);
     progress.report(0.8, "Computing details");
     Field f = field_of(hierarchy_.positions);
     const std::vector<double> wavelength = wavelengths(hierarchy_, layer.mesh.faces);
     hierarchy_.positions = Positions();  // the layer has them
-    coefficients_ = transform_->analyse(std::move(f), options.storage);
+    coefficients_ = scheme_->analyse(std::move(f), options.scheme.storage);
     levels_ = describe(hierarchy_, coefficients_, wavelength);
     progress.report(1, "Pyramid built");
 }
 
-double KeptPyramid::reconstruction_error(const Positions& positions) const {
+double Pyramid::reconstruction_error(const Positions& positions) const {
     struct Largest {
         double square = 0;
         Largest& operator+=(const Largest& o) {
@@ -176,7 +104,7 @@ double KeptPyramid::reconstruction_error(const Positions& positions) const {
             return *this;
         }
     };
-    const Field back = transform_->synthesise(coefficients_);
+    const Field back = scheme_->synthesise(coefficients_);
     const auto largest = chunked_reduce<Largest>(back.rows(), [&](std::size_t begin, std::size_t end) {
         Largest part;
         for (std::size_t p = begin; p < end; ++p)
@@ -186,8 +114,8 @@ double KeptPyramid::reconstruction_error(const Positions& positions) const {
     return std::sqrt(largest.square);
 }
 
-Positions KeptPyramid::synthesise(const std::vector<double>& gain) const {
-    return positions_in_input(hierarchy_, transform_->synthesise(coefficients_, gain));
+Positions Pyramid::synthesise(std::vector<double> gain) const {
+    return positions_in_input(hierarchy_, scheme_->synthesise(coefficients_, with_gain(std::move(gain))));
 }
 
 }  // namespace multires

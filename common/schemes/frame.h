@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh/mesh.h"
+#include "schemes/field.h"
 
 #include <algorithm>
 #include <cmath>
@@ -47,6 +47,43 @@ Frame ring_frame(const Index* ring, Index size, const At& at) {
     f.t = t / length;
     f.b = f.n.cross(f.t);
     return f;
+}
+
+/// Unit normal of a ring: that of the triangles between it and an origin, which does not matter if the ring is closed.
+/// Zero if they have no area.
+template <class At>
+Vec3 ring_normal(const Index* ring, Index size, const At& at, const Vec3& origin) {
+    if (size < 2) return Vec3::Zero();
+    Vec3 area(0, 0, 0), last = at(ring[0]) - origin;
+    double squares = last.squaredNorm();
+    for (Index j = 1; j < size; ++j) {
+        const Vec3 d = at(ring[j]) - origin;
+        area += last.cross(d);
+        squares += d.squaredNorm();
+        last = d;
+    }
+    const double length = area.norm();
+    return length > 1e-12 * squares ? Vec3(area / length) : Vec3(Vec3::Zero());
+}
+
+/// Frame of row r of some rings over the first three channels of a field.
+inline Frame frame_of(const Rings& rings, Index r, const Field& g) {
+    return ring_frame(rings.begin(r), rings.size(r), [&](Index v) {
+        const double* p = g.row(v);
+        return Vec3(p[0], p[1], p[2]);
+    });
+}
+
+/// Turns channels 0..2 of a detail into a frame.
+/// @returns false, and leaves it in the world's axes, if it is longer than half the frame's ring is wide: what rounding
+///          turns the frame by would move the vertex by more than it moved the ring, and grow from level to level
+inline bool turn_into(const Frame& frame, double* detail) {
+    constexpr double limit = 0.5;  // in sizes of the frame
+    const Vec3 world(detail[0], detail[1], detail[2]);
+    if (!(world.squaredNorm() <= limit * limit * frame.size * frame.size)) return false;
+    const Vec3 local = frame.to_local(world);
+    std::copy_n(local.data(), 3, detail);
+    return true;
 }
 
 }  // namespace multires

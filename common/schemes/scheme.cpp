@@ -1,59 +1,34 @@
 #include "schemes/scheme.h"
 
 #include "base/parallel.h"
+#include "schemes/frame.h"
 
 #include <algorithm>
 
 namespace multires {
 
-Coefficients::Detail widened(const Coefficients::Detail& detail, int width) {
-    const auto widen = [&](const Field& field, const Array<float>& single) {
-        if (single.empty()) return field;
-        Field wide = Field::unset(static_cast<Index>(single.size()) / width, width);
-        parallel_for(wide.rows(), [&](Index r) {
-            const std::size_t at = static_cast<std::size_t>(r) * width;
-            std::copy_n(single.begin() + at, width, wide.values.begin() + at);
-        });
-        return wide;
-    };
-    return {widen(detail.odd, detail.odd_single),
-            widen(detail.even, detail.even_single),
-            detail.odd_framed,
-            detail.even_framed,
-            {},
-            {}};
+void narrow(Subband& subband) {
+    subband.single.assign(subband.values.values.begin(), subband.values.values.end());
+    subband.values.values = Array<double>();
 }
 
-Field to_places(const Hierarchy& hierarchy, const Field& input) {
-    Field out = Field::unset(input.rows(), input.width);
-    out.has_positions = input.has_positions;
-    parallel_for(out.rows(), [&](Index p) { std::copy_n(input.row(hierarchy.order[p]), input.width, out.row(p)); });
-    return out;
+void widen(Subband& subband) {
+    if (subband.single.empty()) return;
+    Field& wide = subband.values;
+    wide.values.resize(subband.single.size());
+    parallel_for(wide.rows(), [&](Index r) {
+        const std::size_t at = static_cast<std::size_t>(r) * wide.width;
+        std::copy_n(subband.single.begin() + static_cast<std::ptrdiff_t>(at), wide.width, wide.row(r));
+    });
+    subband.single = Array<float>();
 }
 
-Field to_input(const Hierarchy& hierarchy, const Field& places) {
-    Field out = Field::unset(places.rows(), places.width);
-    out.has_positions = places.has_positions;
-    parallel_for(out.rows(), [&](Index p) { std::copy_n(places.row(p), places.width, out.row(hierarchy.order[p])); });
-    return out;
-}
-
-Field field_of(const Positions& positions) {
-    Field f = Field::unset(static_cast<Index>(positions.size()), 3);
-    parallel_for(f.rows(), [&](Index i) { std::copy_n(positions[i].data(), 3, f.row(i)); });
-    return f;
-}
-
-Positions positions_in_input(const Hierarchy& hierarchy, const Field& places) {
-    Positions out(places.rows());
-    parallel_for(places.rows(), [&](Index p) { out[hierarchy.order[p]] = Vec3(places.row(p)); });
-    return out;
-}
-
-Positions positions_of(const Field& field) {
-    Positions p(field.rows());
-    parallel_for(field.rows(), [&](Index i) { p[i] = Vec3(field.row(i)[0], field.row(i)[1], field.row(i)[2]); });
-    return p;
+Vec3 Scheme::normal(const Subband& subband, Index row, const Positions& positions) const {
+    if (!subband.local.empty() && subband.local[row]) return {0, 0, 1};
+    const Rings& rings = *subband.rings;
+    const auto at = [&](Index place) { return positions[h_.order[place]]; };
+    const bool open = rings.kind[row] == RingKind::open;
+    return ring_normal(rings.begin(row), rings.size(row), at, open ? at(rings.vertex(row)) : at(rings.begin(row)[0]));
 }
 
 }  // namespace multires

@@ -27,13 +27,16 @@ double normal_number(std::uint64_t index) {
 
 }  // namespace
 
-std::vector<NoiseGain> noise_gains(const Hierarchy& hierarchy, const Transform& transform) {
+NoiseGains noise_gains(const Hierarchy& hierarchy, const Scheme& scheme) {
     Field noise(hierarchy.vertices(), 1);
     noise.has_positions = false;
     for (Index i = 0; i < noise.rows(); ++i) noise.values[i] = normal_number(static_cast<std::uint64_t>(i));
-    const Coefficients c = transform.analyse(std::move(noise));
-    std::vector<NoiseGain> gains;
-    for (const Coefficients::Detail& d : c.detail) gains.push_back({rms(d.odd), rms(d.even)});
+    const Coefficients c = scheme.analyse(std::move(noise));
+    NoiseGains gains;
+    for (const std::vector<Subband>& level : c.level) {
+        gains.emplace_back();
+        for (const Subband& band : level) gains.back().push_back(rms(band.values));
+    }
     return gains;
 }
 

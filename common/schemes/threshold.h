@@ -28,13 +28,11 @@ inline bool shrink(double* d, int width, double t, Shrink rule) {
     return false;
 }
 
-/// How much white noise each level takes up: standard deviation of one component of its details if every vertex carries
-/// independent noise of standard deviation 1 in one channel. Measured by analysing such noise, so that it holds for any
-/// scheme, operator and mesh; always the same random numbers. The odd and the even details of a level come apart.
-struct NoiseGain {
-    double odd = 0, even = 0;
-};
-std::vector<NoiseGain> noise_gains(const Hierarchy& hierarchy, const Transform& transform);
+/// How much white noise each subband takes up: standard deviation of one component of its details if every vertex
+/// carries independent noise of standard deviation 1 in one channel. Measured by analysing such noise, so that it holds
+/// for any scheme, operator and mesh; always the same random numbers. By level and subband, as in Coefficients.
+using NoiseGains = std::vector<std::vector<double>>;
+NoiseGains noise_gains(const Hierarchy& hierarchy, const Scheme& scheme);
 
 /// Robust standard deviation of values around 0: median of |x| / 0.6745. Reorders the values; 0 if there are none.
 double deviation_by_median(std::vector<double>& values);

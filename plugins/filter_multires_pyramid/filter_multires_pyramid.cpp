@@ -21,8 +21,8 @@ GenerateLevelOptions level_defaults(const Layer* layer) {
     o.level = 0;
     if (!layer) return o;
     const double vertices = static_cast<double>(layer->mesh.positions.size());
-    if (vertices > o.pyramid.base_vertices)
-        o.level = static_cast<int>(std::log(vertices / o.pyramid.base_vertices) / std::log(4 / 3.0) / 2);
+    if (vertices > o.pyramid.hierarchy.base_vertices)
+        o.level = static_cast<int>(std::log(vertices / o.pyramid.hierarchy.base_vertices) / std::log(4 / 3.0) / 2);
     return o;
 }
 

@@ -25,7 +25,7 @@ struct Slot {
 
 namespace {
 
-// Change the numbers with the layout of Slot, KeptPyramid, Original or anything they hold: plugins of different builds
+// Change the numbers with the layout of Slot, Pyramid, Original or anything they hold: plugins of different builds
 // may meet.
 constexpr const char* attribute_name = "multires_kept_3";
 constexpr const char* list_name = "multires_slots_3";

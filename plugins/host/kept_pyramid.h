@@ -11,13 +11,13 @@ namespace multires::host {
 
 /// What a mesh keeps between calls; either may be null.
 struct Kept {
-    std::shared_ptr<const KeptPyramid> pyramid;
+    std::shared_ptr<const Pyramid> pyramid;
     std::shared_ptr<const Original> original;
 };
 
 /// Where it keeps it: a named per-mesh attribute of vcg, which is not copied with the mesh. It is found by name, so it
 /// is common to all our plugins in a process, although each has its own copy of this code; the name says which layout
-/// of KeptPyramid and Original it points to.
+/// of Pyramid and Original it points to.
 ///
 /// Hosts save it in no file. A VMI file from elsewhere may hold bytes under that name, as an attribute of another type:
 /// they are never read, kept() gives nulls and Keeper puts a new slot in their place.

@@ -45,48 +45,45 @@ inline void bind_operator(Parameters& p, Operator& op, const char* group) {
 
 inline void bind_pyramid(Parameters& p, PyramidOptions& o) {
     const char* group = "Pyramid";
-    p.choice("scheme", o.scheme, {"Roy", "Guskov"},
-             {"Scheme",
-              "Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine structure "
-              "follows when coarse structure is changed.",
-              0, 1, true, group});
-    bind_operator(p, o.op, group);
-    p.real("presmooth", o.presmooth,
+    p.choice("scheme", o.scheme.row, scheme_names(),
+             {"Scheme", scheme_tooltip(), 0, static_cast<double>(schemes().size() - 1), true, group});
+    bind_operator(p, o.scheme.op, group);
+    p.real("presmooth", o.scheme.presmooth,
            {"Presmoothing",
             "Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine noise out of coarse "
             "levels; 0 is what the papers do.",
             0, 1, true, group});
-    p.choice("grouping", o.grouping, {"independent sets", "sequential"},
+    p.choice("grouping", o.hierarchy.grouping, {"independent sets", "sequential"},
              {"Levels",
               "Independent sets: each level removes about a quarter of the vertices, none of them neighbours (Roy). "
               "Sequential: one vertex after the other, cheapest first (Guskov).",
               0, 1, true, group});
-    p.choice("storage", o.storage, {"double", "float"},
+    p.choice("storage", o.scheme.storage, {"double", "float"},
              {"Storage",
               "How the pyramid keeps weights and details. Float takes half the memory, for meshes of many millions of "
               "vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.",
               0, 1, true, group});
     p.integer(
-        "sets_per_level", o.sets_per_level,
+        "sets_per_level", o.hierarchy.sets_per_level,
         {"Sets per level",
          "Independent sets only: how many sets, a quarter of the vertices each, a level removes. 2 separates bands "
          "best; 1 sees most of the noise.",
          1, 100, true, group});
-    p.real("level_ratio", o.level_ratio,
+    p.real("level_ratio", o.hierarchy.level_ratio,
            {"Level ratio",
             "Sequential only: share of its vertices that a level keeps, for example 0.8; 0 makes every vertex a level "
             "of its own.",
             0, 0.99, true, group});
-    p.integer("base_vertices", o.base_vertices,
+    p.integer("base_vertices", o.hierarchy.base_vertices,
               {"Base vertices", "Vertices at which the pyramid stops.", 4, 1000000000, true, group});
-    p.real("length_weight", o.length_weight,
+    p.real("length_weight", o.hierarchy.length_weight,
            {"Even spacing",
             "Weight of edge length against the quadric error when vertices are chosen: 0 keeps vertices where the "
             "surface bends, 1 keeps them evenly spaced.",
             0, 1000, true, group});
-    p.real("normal_limit", o.normal_limit,
+    p.real("normal_limit", o.hierarchy.normal_limit_degrees,
            {"Normal limit", "Degrees by which removing a vertex may turn a face at most.", 1, 180, true, group});
-    bind_features(p, o.features, o.feature_angle);
+    bind_features(p, o.features.from, o.features.angle);
 }
 
 inline void bind_region(Parameters& p, Region& region) {

@@ -14,10 +14,11 @@ using bench::scan;
 PyramidOptions options_of(benchmark::State& state) {
     PyramidOptions o;
     if (state.range(1) == 0) {  // Roy's: cotangent weights, no presmoothing
-        o.scheme = Scheme::roy;
-        o.op = Operator::cotangent_clamped;
-        o.presmooth = 0;
+        o.scheme.row = scheme_named("Roy");
+        o.scheme.op = Operator::cotangent_clamped;
+        o.scheme.presmooth = 0;
     }
+    if (state.range(1) == 2) o.scheme.row = scheme_named("Lazy");
     return o;
 }
 
@@ -39,15 +40,15 @@ void HierarchyOnly(benchmark::State& state) {
 void WholePyramid(benchmark::State& state) {
     const Layer& layer = scan(static_cast<Index>(state.range(0)));
     const PyramidOptions o = options_of(state);
-    for (auto _ : state) benchmark::DoNotOptimize(KeptPyramid(layer, o, Progress()));
+    for (auto _ : state) benchmark::DoNotOptimize(Pyramid(layer, o, Progress()));
     per_vertex(state, layer);
 }
 
 void Synthesis(benchmark::State& state) {
     const Layer& layer = scan(static_cast<Index>(state.range(0)));
-    const KeptPyramid pyramid(layer, options_of(state), Progress());
+    const Pyramid pyramid(layer, options_of(state), Progress());
     const std::vector<double> gain(pyramid.levels().size() - 1, 0.5);
-    for (auto _ : state) benchmark::DoNotOptimize(pyramid.transform().synthesise(pyramid.coefficients(), gain));
+    for (auto _ : state) benchmark::DoNotOptimize(pyramid.scheme().synthesise(pyramid.coefficients(), with_gain(gain)));
     per_vertex(state, layer);
 }
 
@@ -57,13 +58,14 @@ void ContentHash(benchmark::State& state) {
     per_vertex(state, layer);
 }
 
-// Second argument: 0 Roy with cotangent weights, 1 the default (Guskov, second differences with flaps, presmoothed).
+// Second argument: 0 Roy with cotangent weights, 1 the default (Guskov, second differences with flaps, presmoothed), 2
+// the same but lazy.
 #define SIZES(mode)                                                                                                    \
     Args({48485, mode})->Args({1000000, mode})->Args({10000000, mode})->Unit(benchmark::kMillisecond)->UseRealTime()
 BENCHMARK(Rings)->SIZES(1);
 BENCHMARK(HierarchyOnly)->SIZES(0)->SIZES(1);
-BENCHMARK(WholePyramid)->SIZES(0)->SIZES(1);
-BENCHMARK(Synthesis)->SIZES(0)->SIZES(1);
+BENCHMARK(WholePyramid)->SIZES(0)->SIZES(1)->SIZES(2);
+BENCHMARK(Synthesis)->SIZES(0)->SIZES(1)->SIZES(2);
 BENCHMARK(ContentHash)->SIZES(1);
 
 }  // namespace

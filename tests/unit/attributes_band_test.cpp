@@ -2,6 +2,7 @@
 
 #include "fixtures.h"
 #include "measure/measure.h"
+#include "scheme_fixtures.h"
 
 #include <cmath>
 #include <limits>
@@ -87,7 +88,7 @@ TEST(AttributeBands, StopBandOfTheCoarseBandLeavesTheFineOne) {
     AttributeBandOptions options = of_quality(BandMode::stop_band);
     options.band.finest = two_bands().between;
     options.band.coarsest = 100;
-    options.pyramid.base_vertices = 4;
+    options.pyramid.hierarchy.base_vertices = 4;
     const auto [low, high] = two_bands().left_in(filter(two_bands().layer, options));
     EXPECT_LT(std::abs(low), 0.4) << "what the base of the pyramid carries stays";
     EXPECT_NEAR(high, 1, 0.05);
@@ -104,8 +105,8 @@ TEST(AttributeBands, EnhanceMultipliesTheFineBand) {
 TEST(AttributeBands, LowPassAndTheRestAddUp) {
     // Plain channels: every scheme is linear in them, so gains add.
     AttributeBandOptions options = of_quality(BandMode::enhance);
-    for (const Scheme scheme : {Scheme::roy, Scheme::guskov}) {
-        options.pyramid.scheme = scheme;
+    for (const int scheme : fixtures::every_scheme()) {
+        options.pyramid.scheme.row = scheme;
         const Layer& layer = two_bands().layer;
         std::vector<double> at[3];
         for (int g = 0; g < 3; ++g) {
@@ -202,26 +203,26 @@ TEST(AttributeBands, RefusesWhatMakesNoSense) {
     refused([](AttributeBandOptions&) {});
 }
 
-// ---- the transform's part
+// ---- the scheme's part
 // --------------------------------------------------------------------------------------------
 
 TEST(Subdivision, IsSynthesisWithoutDetails) {
     const Layer& layer = two_bands().layer;
-    for (const Scheme scheme : {Scheme::roy, Scheme::guskov}) {
+    for (const int scheme : fixtures::every_scheme()) {
         PyramidOptions options;
-        options.scheme = scheme;
-        const KeptPyramid pyramid(layer, options, Progress());
+        options.scheme.row = scheme;
+        const Pyramid pyramid(layer, options, Progress());
         for (const bool positions : {true, false}) {
             Field f = field_of(layer.mesh.positions);
             f.has_positions = positions;
-            const Coefficients c = pyramid.transform().analyse(to_places(pyramid.hierarchy(), f));
+            const Coefficients c = pyramid.scheme().analyse(to_places(pyramid.hierarchy(), f));
             EXPECT_EQ(c.base.has_positions, positions);
             const std::size_t levels = pyramid.hierarchy().levels.size();
-            const Field none = pyramid.transform().synthesise(c, std::vector<double>(levels, 0));
-            const Field smooth = pyramid.transform().subdivide(c.base, levels);
+            const Field none = pyramid.scheme().synthesise(c, with_gain(std::vector<double>(levels, 0)));
+            const Field smooth = pyramid.scheme().synthesise({}, starting_at(levels, c.base));
             ASSERT_EQ(smooth.values.size(), none.values.size());
             for (std::size_t i = 0; i < none.values.size(); ++i) EXPECT_NEAR(smooth.values[i], none.values[i], 1e-12);
-            EXPECT_EQ(pyramid.transform().subdivide(f, 0).values, f.values);
+            EXPECT_EQ(pyramid.scheme().synthesise({}, starting_at(0, f)).values, f.values);
         }
     }
 }
@@ -229,13 +230,14 @@ TEST(Subdivision, IsSynthesisWithoutDetails) {
 TEST(Subdivision, PlainChannelsHaveNoFrames) {
     // Three equal channels keep equal details only if nothing turns them.
     const Layer& layer = two_bands().layer;
-    const KeptPyramid pyramid(layer, {}, Progress());
+    const Pyramid pyramid(layer, {}, Progress());
     Field f(static_cast<Index>(layer.mesh.positions.size()), 3);
     for (Index r = 0; r < f.rows(); ++r) std::fill_n(f.row(r), 3, layer.attributes[0].values[r]);
     f.has_positions = false;
-    const Coefficients c = pyramid.transform().analyse(to_places(pyramid.hierarchy(), f));
-    for (const auto& d : c.detail)
-        for (Index r = 0; r < d.even.rows(); ++r) EXPECT_EQ(d.even.row(r)[0], d.even.row(r)[2]);
+    const Coefficients c = pyramid.scheme().analyse(to_places(pyramid.hierarchy(), f));
+    for (const std::vector<Subband>& level : c.level)
+        for (const Subband& band : level)
+            for (Index r = 0; r < band.rows(); ++r) EXPECT_EQ(band.values.row(r)[0], band.values.row(r)[2]);
 }
 
 }  // namespace

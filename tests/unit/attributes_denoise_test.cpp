@@ -2,6 +2,7 @@
 
 #include "fixtures.h"
 #include "reported.h"
+#include "scheme_fixtures.h"
 
 #include <cmath>
 #include <limits>
@@ -76,11 +77,11 @@ AttributeDenoiseOptions of_quality() {
 
 TEST(DenoiseAttributes, FindsTheNoiseWhateverTheSchemeAndOperator) {
     for (const double deviation : {0.2, 0.5})  // where it is more than what the scene has at the finest level
-        for (const Scheme scheme : {Scheme::roy, Scheme::guskov})
+        for (const int scheme : fixtures::every_scheme())
             for (const Operator op : {Operator::cotangent_delaunay, Operator::second_difference_flaps}) {
                 AttributeDenoiseOptions options = of_quality();
-                options.pyramid.scheme = scheme;
-                options.pyramid.op = op;
+                options.pyramid.scheme.row = scheme;
+                options.pyramid.scheme.op = op;
                 const Result result = denoise(scene().with_noise(deviation, 0), options);
                 EXPECT_NEAR(reported<double>(result, "quality_noise"), deviation, 0.15 * deviation);
             }
@@ -149,7 +150,7 @@ TEST(DenoiseAttributes, LevelsAndGroupsAreAsChosen) {
     options.finest_level = 2;
     EXPECT_EQ(reported<std::vector<double>>(denoise(layer, options), "quality_threshold").size(), 2u);
     options = of_quality();
-    options.pyramid.grouping = Grouping::sequential;  // one vertex per level: still a handful of numbers
+    options.pyramid.hierarchy.grouping = Grouping::sequential;  // one vertex per level: still a handful of numbers
     const Result result = denoise(layer, options);
     EXPECT_LT(reported<std::vector<double>>(result, "quality_threshold").size(), 30u);
     EXPECT_NEAR(reported<double>(result, "quality_noise"), 0.3, 0.05);

@@ -13,8 +13,8 @@ const Layer& layer() {
     return l;
 }
 
-const KeptPyramid& pyramid() {
-    static const KeptPyramid p(layer(), fine_levels(), Progress());
+const Pyramid& pyramid() {
+    static const Pyramid p(layer(), fine_levels(), Progress());
     return p;
 }
 
@@ -134,7 +134,7 @@ TEST(Band, DefaultsAreInOrderAndReachSomething) {
     for (const auto& [name, mesh] : every_class()) {
         SCOPED_TRACE(name);
         const Layer l = layer_of(mesh);
-        const KeptPyramid p(l, PyramidOptions(), Progress());
+        const Pyramid p(l, PyramidOptions(), Progress());
         for (const Unit unit : {Unit::wavelength, Unit::wavelength_percent, Unit::level, Unit::vertices}) {
             const std::vector<double> s = band_share(p, default_band(l, unit), box_diagonal(l));
             const double cutoff = default_cutoff(l, unit);

@@ -33,7 +33,7 @@ Result run(const Layer& layer, const DenoiseOptions& options = {}) {
 DenoiseOptions with(DenoiseMethod method) {
     DenoiseOptions options;
     options.method = method;
-    options.pyramid.base_vertices = 30;
+    options.pyramid.hierarchy.base_vertices = 30;
     return options;
 }
 

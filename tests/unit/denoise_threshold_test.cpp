@@ -1,6 +1,7 @@
 #include "filters/shape/denoise_threshold.h"
 
 #include "denoise_fixtures.h"
+#include "scheme_fixtures.h"
 
 namespace multires {
 
@@ -17,13 +18,13 @@ Mesh noisy_scan(double deviation) {
 /// The schemes, with and without presmoothing, and both rules.
 std::vector<DenoiseOptions> every_way() {
     std::vector<DenoiseOptions> all;
-    for (const Scheme scheme : {Scheme::guskov, Scheme::roy})
+    for (const int scheme : fixtures::every_scheme())
         for (const double presmooth : {0.0, 0.5})
             for (const DenoiseMethod method : {DenoiseMethod::soft_threshold, DenoiseMethod::hard_threshold}) {
                 DenoiseOptions o;
                 o.method = method;
-                o.pyramid.scheme = scheme;
-                o.pyramid.presmooth = presmooth;
+                o.pyramid.scheme.row = scheme;
+                o.pyramid.scheme.presmooth = presmooth;
                 all.push_back(o);
             }
     return all;

@@ -29,7 +29,7 @@ public:
     Layer layer;
 
 private:
-    std::shared_ptr<const KeptPyramid> pyramid_;
+    std::shared_ptr<const Pyramid> pyramid_;
     std::shared_ptr<const Original> original_;
 };
 

@@ -372,10 +372,10 @@ TEST(RandomMeshes, GainsOfOneGiveTheMeshBack) {
         SCOPED_TRACE("MULTIRES_SEED=" + std::to_string(seed));
         const Layer layer = fixtures::layer_of(fixtures::damaged_mesh(seed));
         PyramidOptions options;
-        options.base_vertices = 4;
-        options.op = static_cast<Operator>(seed % 6);
-        options.scheme = static_cast<Scheme>(seed / 6 % 2);
-        options.grouping = static_cast<Grouping>(seed / 12 % 2);
+        options.hierarchy.base_vertices = 4;
+        options.scheme.op = static_cast<Operator>(seed % 6);
+        options.scheme.row = static_cast<int>(seed / 6 % schemes().size());
+        options.hierarchy.grouping = static_cast<Grouping>(seed / 6 / schemes().size() % 2);
         Session session;
         Report report;
         double diagonal = 0, detail = 0;

@@ -15,7 +15,7 @@ namespace {
 
 Layer small_layer() { return layer_of(shapes::scan(600)); }
 
-std::shared_ptr<const KeptPyramid> kept_by(const Layer& layer, const PyramidOptions& options, Session& session) {
+std::shared_ptr<const Pyramid> kept_by(const Layer& layer, const PyramidOptions& options, Session& session) {
     Report report;
     const auto before = session.pyramid;
     const auto pyramid = pyramid_of(layer, options, session, report);
@@ -40,7 +40,7 @@ TEST(KeptPyramid, IsReusedWhileNothingItDependsOnChanges) {
     EXPECT_EQ(kept_by(layer, {}, session), first);
     // An angle that no feature is found by.
     PyramidOptions options;
-    options.feature_angle = 12;
+    options.features.angle = 12;
     EXPECT_EQ(kept_by(layer, options, session), first);
     // A copy of the layer at another place in memory.
     const Layer copy = layer;
@@ -77,37 +77,43 @@ TEST(KeptPyramid, IsNeverReusedAfterAChangeOfItsOptions) {
     Layer layer = small_layer();
     layer.faux_edges.assign(layer.mesh.faces.size(), 7);
     layer.selected_edges.assign(layer.mesh.faces.size(), 0);
-    const std::vector<std::function<void(PyramidOptions&)>> changes{
-        [](PyramidOptions& o) { o.scheme = Scheme::roy; },
-        [](PyramidOptions& o) { o.op = Operator::cotangent; },
-        [](PyramidOptions& o) { o.presmooth = 0.25; },
-        [](PyramidOptions& o) { o.grouping = Grouping::sequential; },
-        [](PyramidOptions& o) { o.sets_per_level = 3; },
-        [](PyramidOptions& o) { o.level_ratio = 0.5; },
-        [](PyramidOptions& o) { o.base_vertices = 99; },
-        [](PyramidOptions& o) { o.length_weight = 0.2; },
-        [](PyramidOptions& o) { o.normal_limit = 61; },
-        [](PyramidOptions& o) { o.features = Features::angle; },
-        [](PyramidOptions& o) { o.features = Features::non_faux_edges; },
-        [](PyramidOptions& o) { o.features = Features::selected_edges; },
-    };
+    // Every field there is, one by one: another value of its range.
+    std::vector<PyramidOptions> changed;
+    PyramidOptions defaults;
+    int fields = 0;
+    visit_options(defaults, [&](const PyramidOption& option, const auto&) {
+        PyramidOptions other;
+        visit_options(other, [&](const PyramidOption& o, auto& field) {
+            using Value = std::decay_t<decltype(field)>;
+            if (o.name != option.name) return;
+            const double value = static_cast<double>(field);
+            const bool whole = !std::is_same_v<Value, double>;
+            field = static_cast<Value>(value < o.most ? (whole ? value + 1 : (value + std::min(o.most, value + 1)) / 2)
+                                                      : (whole ? value - 1 : (value + o.least) / 2));
+        });
+        ++fields;
+        if (option.name != "feature_angle") changed.push_back(other);  // which does not count by default
+    });
+    EXPECT_EQ(changed.size(), fields - 1u);
+    for (const Features x : {Features::non_faux_edges, Features::selected_edges}) {
+        changed.emplace_back();
+        changed.back().features.from = x;
+    }
     std::set<ContentHash> hashes{content_hash(layer, {})};
-    for (const auto& change : changes) {
-        PyramidOptions options;
-        change(options);
+    for (const PyramidOptions& options : changed) {
         Session session;
         const auto first = kept_by(layer, {}, session);
         EXPECT_NE(kept_by(layer, options, session), first);
         EXPECT_TRUE(hashes.insert(session.pyramid->hash()).second);
     }
     PyramidOptions options;
-    options.features = Features::angle;
-    options.feature_angle = 41;
+    options.features.from = Features::angle;
+    options.features.angle = 41;
     EXPECT_TRUE(hashes.insert(content_hash(layer, options)).second);
-    options.features = Features::selected_edges;
+    options.features.from = Features::selected_edges;
     layer.selected_edges[8] = 2;
     EXPECT_TRUE(hashes.insert(content_hash(layer, options)).second);
-    options.features = Features::non_faux_edges;
+    options.features.from = Features::non_faux_edges;
     layer.faux_edges[8] = 2;
     EXPECT_TRUE(hashes.insert(content_hash(layer, options)).second);
 }
@@ -115,20 +121,38 @@ TEST(KeptPyramid, IsNeverReusedAfterAChangeOfItsOptions) {
 TEST(KeptPyramid, RefusesOptionsOutOfRange) {
     const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
     std::vector<PyramidOptions> wrong;
-    const auto add = [&](auto PyramidOptions::*field, auto bad) {
+    const auto add = [&](auto& (*field)(PyramidOptions&), auto bad) {
         wrong.emplace_back();
-        wrong.back().*field = bad;
+        field(wrong.back()) = bad;
     };
-    for (const double x : {-0.1, 1.1, nan}) add(&PyramidOptions::presmooth, x);
-    for (const double x : {-0.1, 1.0, nan}) add(&PyramidOptions::level_ratio, x);
-    for (const double x : {-0.1, inf, nan}) add(&PyramidOptions::length_weight, x);
-    for (const double x : {0.0, -5.0, 180.5, nan}) add(&PyramidOptions::normal_limit, x);
-    for (const int x : {0, -1}) add(&PyramidOptions::sets_per_level, x);
-    for (const int x : {3, 0, -100}) add(&PyramidOptions::base_vertices, x);
-    for (const Features x : {Features::non_faux_edges, Features::selected_edges}) add(&PyramidOptions::features, x);
+    for (const double x : {-0.1, 1.1, nan})
+        add(
+            +[](PyramidOptions& o) -> double& { return o.scheme.presmooth; }, x);
+    for (const int x : {-1, static_cast<int>(schemes().size())})
+        add(
+            +[](PyramidOptions& o) -> int& { return o.scheme.row; }, x);
+    for (const double x : {-0.1, 1.0, nan})
+        add(
+            +[](PyramidOptions& o) -> double& { return o.hierarchy.level_ratio; }, x);
+    for (const double x : {-0.1, inf, nan})
+        add(
+            +[](PyramidOptions& o) -> double& { return o.hierarchy.length_weight; }, x);
+    for (const double x : {0.0, -5.0, 180.5, nan})
+        add(
+            +[](PyramidOptions& o) -> double& { return o.hierarchy.normal_limit_degrees; }, x);
+    for (const int x : {0, -1})
+        add(
+            +[](PyramidOptions& o) -> int& { return o.hierarchy.sets_per_level; }, x);
+    for (const int x : {3, 0, -100})
+        add(
+            +[](PyramidOptions& o) -> Index& { return o.hierarchy.base_vertices; }, x);
+    for (const Features x : {Features::non_faux_edges, Features::selected_edges})
+        add(
+            +[](PyramidOptions& o) -> Features& { return o.features.from; }, x);
     for (const double x : {0.0, 180.0, nan}) {
-        add(&PyramidOptions::feature_angle, x);
-        wrong.back().features = Features::angle;
+        add(
+            +[](PyramidOptions& o) -> double& { return o.features.angle; }, x);
+        wrong.back().features.from = Features::angle;
     }
     const Layer layer = small_layer();
     for (std::size_t i = 0; i < wrong.size(); ++i) {
@@ -182,7 +206,7 @@ TEST(ComputePyramid, ItsTableIsThatOfTheLevels) {
 
 TEST(ComputePyramid, OneVertexPerLevelGivesAShortTable) {
     ComputePyramidOptions options;
-    options.pyramid.grouping = Grouping::sequential;
+    options.pyramid.hierarchy.grouping = Grouping::sequential;
     Session session;
     const Mesh mesh = shapes::scan(1500);
     const Result result = compute_pyramid(layer_of(mesh), options, session);
@@ -225,7 +249,7 @@ TEST(GenerateLevel, IsASubsetOfTheInput) {
         const Layer layer = layer_of(mesh);
         Session session;
         GenerateLevelOptions options;
-        options.pyramid.base_vertices = 10;
+        options.pyramid.hierarchy.base_vertices = 10;
         Report ignored;
         const int last = static_cast<int>(pyramid_of(layer, options.pyramid, session, ignored)->levels().size()) - 1;
         for (options.level = 0; options.level <= last; options.level += std::max(1, last / 3)) {

@@ -39,7 +39,7 @@ TexcoordOptions about_z(Projection projection, int coarse_vertices = 300) {
     o.projection = projection;
     o.axis = ProjectionAxis::z;
     o.coarse_vertices = coarse_vertices;
-    o.pyramid.base_vertices = std::min(100, coarse_vertices);
+    o.pyramid.hierarchy.base_vertices = std::min(100, coarse_vertices);
     return o;
 }
 

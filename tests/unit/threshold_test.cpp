@@ -1,6 +1,7 @@
 #include "schemes/threshold.h"
 
 #include "denoise_fixtures.h"
+#include "scheme_fixtures.h"
 
 namespace multires {
 
@@ -57,24 +58,24 @@ TEST(Threshold, DeviationByMedianIsThatOfGaussianNoiseAndRobust) {
 
 TEST(NoiseGains, AreWhatNoiseMeasures) {
     const Layer layer = layer_of(shapes::scan(4000));
-    for (const Scheme scheme : {Scheme::roy, Scheme::guskov}) {
+    for (const int scheme : fixtures::every_scheme()) {
         PyramidOptions options;
-        options.scheme = scheme;
-        const KeptPyramid pyramid(layer, options, Progress());
-        const std::vector<NoiseGain> gains = noise_gains(pyramid.hierarchy(), pyramid.transform());
-        ASSERT_EQ(gains.size(), pyramid.coefficients().detail.size());
+        options.scheme.row = scheme;
+        const Pyramid pyramid(layer, options, Progress());
+        const NoiseGains gains = noise_gains(pyramid.hierarchy(), pyramid.scheme());
+        ASSERT_EQ(gains.size(), pyramid.coefficients().level.size());
         shapes::Random random(11);
         Field noise(pyramid.hierarchy().vertices(), 8);
         noise.has_positions = false;
         for (double& v : noise.values) v = gaussian(random);
-        const Coefficients c = pyramid.transform().analyse(noise);
+        const Coefficients c = pyramid.scheme().analyse(noise);
         for (std::size_t k = 0; k < gains.size(); ++k) {
             SCOPED_TRACE(k);
-            const Field &odd = c.detail[k].odd, &even = c.detail[k].even;
-            if (odd.rows() < 200) break;  // too few for a measurement
-            EXPECT_NEAR(gains[k].odd / rms({odd.values.begin(), odd.values.end()}), 1, 0.15);
-            if (even.rows() > 0) {
-                EXPECT_NEAR(gains[k].even / rms({even.values.begin(), even.values.end()}), 1, 0.15);
+            ASSERT_EQ(gains[k].size(), c.level[k].size());
+            for (std::size_t b = 0; b < gains[k].size(); ++b) {
+                const Array<double>& values = c.level[k][b].values.values;
+                if (c.level[k][b].rows() < 200) continue;  // too few for a measurement
+                EXPECT_NEAR(gains[k][b] / rms({values.begin(), values.end()}), 1, 0.15);
             }
         }
     }

@@ -38,16 +38,16 @@ Result filter_attribute_bands(const Layer& layer, const AttributeBandOptions& op
 /// values at the first vertex meanwhile, so that a constant comes back exactly.
 /// @param field  #V rows in order of the input
 template <class Change>
-Field through_pyramid(const KeptPyramid& pyramid, const Field& field, const std::vector<double>& gains,
+Field through_pyramid(const Pyramid& pyramid, const Field& field, const std::vector<double>& gains,
                       const Change& change) {
     const auto shifted = [&](Field f, double sign) {
         for (Index r = 0; r < f.rows(); ++r)
             for (int c = 0; c < f.width; ++c) f.row(r)[c] += sign * field.row(0)[c];
         return f;
     };
-    Coefficients coefficients = pyramid.transform().analyse(to_places(pyramid.hierarchy(), shifted(field, -1)));
+    Coefficients coefficients = pyramid.scheme().analyse(to_places(pyramid.hierarchy(), shifted(field, -1)));
     change(coefficients);
-    return shifted(to_input(pyramid.hierarchy(), pyramid.transform().synthesise(coefficients, gains)), 1);
+    return shifted(to_input(pyramid.hierarchy(), pyramid.scheme().synthesise(coefficients, with_gain(gains))), 1);
 }
 
 }  // namespace multires

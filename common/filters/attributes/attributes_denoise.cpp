@@ -32,7 +32,7 @@ std::vector<Group> group_levels(const Hierarchy& h, const AttributeDenoiseOption
     return groups;
 }
 
-/// Some channels of all details of one kind (odd or even) of a group.
+/// Some channels of one subband of all levels of a group.
 struct Details {
     std::vector<Field*> fields;
     int begin = 0, width = 1;  ///< channels
@@ -49,37 +49,37 @@ struct Details {
     }
 };
 
-Details details_of(Coefficients& c, const Group& group, bool odd, int begin, int width) {
+Details details_of(Coefficients& c, const Group& group, std::size_t band, int begin, int width) {
     Details d{{}, begin, width};
     for (std::size_t k = group.first; k < group.last; ++k) {
-        Field& f = odd ? c.detail[k].odd : c.detail[k].even;
+        Field& f = c.level[k][band].values;
         if (f.rows() > 0) d.fields.push_back(&f);
     }
     return d;
 }
 
 /// Root mean square of the noise gains of a group, weighted by its rows.
-double gain_of(const std::vector<NoiseGain>& gains, const Coefficients& c, const Group& group, bool odd) {
+double gain_of(const NoiseGains& gains, const Coefficients& c, const Group& group, std::size_t band) {
     double squares = 0, rows = 0;
     for (std::size_t k = group.first; k < group.last; ++k) {
-        const double g = odd ? gains[k].odd : gains[k].even, n = (odd ? c.detail[k].odd : c.detail[k].even).rows();
+        const double g = gains[k][band], n = c.level[k][band].rows();
         squares += n * g * g;
         rows += n;
     }
     return rows > 0 ? std::sqrt(squares / rows) : 0;
 }
 
-/// Deviation of the noise in one channel of the input, from the finest details: root mean square over the channels. Odd
-/// and even details show the same noise with different shares of the signal, which only adds: the smaller one counts.
-double noise_of(Coefficients& c, const std::vector<NoiseGain>& gains, const Hierarchy& h, int begin, int width) {
+/// Deviation of the noise in one channel of the input, from the finest details: root mean square over the channels. All
+/// subbands show the same noise with different shares of the signal, which only adds: the smallest one counts.
+double noise_of(Coefficients& c, const NoiseGains& gains, const Hierarchy& h, int begin, int width) {
     const std::vector<Group> groups = group_levels(h, {});
     if (groups.empty()) return 0;
     double squares = 0;
     for (int channel = begin; channel < begin + width; ++channel) {
         double deviation = std::numeric_limits<double>::infinity();
-        for (const bool odd : {true, false}) {
-            const Details d = details_of(c, groups[0], odd, channel, 1);
-            const double g = gain_of(gains, c, groups[0], odd);
+        for (std::size_t band = 0; band < c.level[0].size(); ++band) {
+            const Details d = details_of(c, groups[0], band, channel, 1);
+            const double g = gain_of(gains, c, groups[0], band);
             if (g <= 0 || d.rows() < 8) continue;
             std::vector<double> values;
             d.each([&](const double* x) { values.push_back(*x); });
@@ -113,14 +113,14 @@ struct Findings {
 };
 
 /// Thresholds some channels of all levels chosen.
-Findings shrink_details(Coefficients& c, const Hierarchy& h, const std::vector<NoiseGain>& gains, double noise,
-                        int begin, int width, const AttributeDenoiseOptions& o) {
+Findings shrink_details(Coefficients& c, const Hierarchy& h, const NoiseGains& gains, double noise, int begin,
+                        int width, const AttributeDenoiseOptions& o) {
     Findings found;
     for (const Group& group : group_levels(h, o)) {
         double level_noise = 0, level_threshold = 0, zeroed = 0, rows = 0;
-        for (const bool odd : {true, false}) {
-            const Details d = details_of(c, group, odd, begin, width);
-            const double n = static_cast<double>(d.rows()), here = noise * gain_of(gains, c, group, odd);
+        for (std::size_t band = 0; band < c.level[group.first].size(); ++band) {
+            const Details d = details_of(c, group, band, begin, width);
+            const double n = static_cast<double>(d.rows()), here = noise * gain_of(gains, c, group, band);
             const double t = o.automatic ? automatic_threshold(d, here, o) : o.threshold;
             // A threshold of zero changes nothing: what is zero already does not count as set to zero.
             if (t > 0) d.each([&](double* x) { zeroed += shrink(x, width, t, o.rule); });
@@ -142,7 +142,7 @@ void report_findings(const std::string& label, double noise, const Findings& f, 
     report.add(label + "_zeroed", f.zeroed);
 }
 
-Field denoised(const Channels& channels, const KeptPyramid& pyramid, const std::vector<NoiseGain>& gains,
+Field denoised(const Channels& channels, const Pyramid& pyramid, const NoiseGains& gains,
                const AttributeDenoiseOptions& o, Report& report) {
     const Hierarchy& h = pyramid.hierarchy();
     return through_pyramid(pyramid, channels.field, {}, [&](Coefficients& c) {
@@ -163,7 +163,7 @@ Result denoise_attributes(const Layer& layer, const AttributeDenoiseOptions& opt
     const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
     const std::vector<double> weights = region_weights(layer, options.region);
     session.progress.report(0.9, "Measuring the noise gain");
-    const std::vector<NoiseGain> gains = noise_gains(pyramid->hierarchy(), pyramid->transform());
+    const NoiseGains gains = noise_gains(pyramid->hierarchy(), pyramid->scheme());
     for (const Channels& c : all) {
         session.progress.report(0.92, "Denoising attributes");
         const Field after = denoised(c, *pyramid, gains, options, result.report);

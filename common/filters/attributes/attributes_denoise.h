@@ -12,8 +12,8 @@ namespace multires {
 /// in floating point throughout; the host rounds colours, once. The geometry stays as it is.
 ///
 /// Automatic threshold. The standard deviation of the noise, sigma, is the median absolute deviation of the finest
-/// level's details (odd or even, whichever is less) over 0.6745, divided by the gain g of that level: what the
-/// transform makes of white noise of deviation 1, which is measured (noise_gains). At a level of gain g_k noise then
+/// level's details (of the subband where it is least) over 0.6745, divided by the gain g of that level: what the
+/// scheme makes of white noise of deviation 1, which is measured (noise_gains). At a level of gain g_k noise then
 /// has sigma_k = g_k sigma, and what the details vary by beyond that is signal, s_k^2 = max(0, var_k - sigma_k^2).
 /// - soft: sigma_k^2 / s_k (Chang, Yu, Vetterli 2000, "BayesShrink"): all of a level that holds nothing but noise, next
 ///   to nothing of one that noise hardly reaches;

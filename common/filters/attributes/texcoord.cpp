@@ -82,7 +82,7 @@ void project(const Axes& x, Projection projection, const Vec3& point, double* ou
 bool goes_around(Projection p) { return p == Projection::cylindrical || p == Projection::spherical; }
 
 /// The continuous values at the finest level, in order of the input.
-Field subdivided(const Layer& layer, const TexcoordOptions& options, const KeptPyramid& pyramid, std::size_t level,
+Field subdivided(const Layer& layer, const TexcoordOptions& options, const Pyramid& pyramid, std::size_t level,
                  const Axes& axes) {
     const Hierarchy& h = pyramid.hierarchy();
     Field coarse(h.size[level], goes_around(options.projection) ? 3 : 2);
@@ -96,7 +96,7 @@ Field subdivided(const Layer& layer, const TexcoordOptions& options, const KeptP
         for (Index p = 0; p < coarse.rows(); ++p)
             project(axes, options.projection, layer.mesh.positions[h.order[p]], coarse.row(p));
     }
-    return to_input(h, pyramid.transform().subdivide(coarse, level));
+    return to_input(h, pyramid.scheme().synthesise({}, starting_at(level, coarse)));
 }
 
 /// Range of a channel over the vertices that faces use.

@@ -74,7 +74,7 @@ Result generate_level(const Layer& layer, const GenerateLevelOptions& options, S
     derived.faces = std::move(mesh.faces);
     derived.source_face = std::move(mesh.source_face);
     if (options.smoothed)
-        derived.positions = positions_of(pyramid->transform().synthesise(pyramid->coefficients(), {}, level));
+        derived.positions = positions_of(pyramid->scheme().synthesise(pyramid->coefficients(), down_to(level)));
     result.report.add("level", level);
     result.report.add("vertices", static_cast<int>(count));
     result.report.add("faces", static_cast<int>(derived.faces.size()));

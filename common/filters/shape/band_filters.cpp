@@ -46,14 +46,14 @@ Result low_pass(const Layer& layer, const LowPassOptions& options, Session& sess
     const bool vertices = options.unit == Unit::vertices;
     band.finest = vertices ? 1e300 : 0;
     band.coarsest = options.cutoff;
-    return filter_bands(layer, options, session, [&](const Layer& start, const KeptPyramid& pyramid) {
+    return filter_bands(layer, options, session, [&](const Layer& start, const Pyramid& pyramid) {
         return band_gains(pyramid, band, box_diagonal(start), 0);
     });
 }
 
 Result scale_band(const Layer& layer, const BandOptions& options, Session& session) {
     require_finite(options.gain, "gain");
-    return filter_bands(layer, options, session, [&](const Layer& start, const KeptPyramid& pyramid) {
+    return filter_bands(layer, options, session, [&](const Layer& start, const Pyramid& pyramid) {
         return band_gains(pyramid, options.band, box_diagonal(start), options.gain);
     });
 }
@@ -61,7 +61,7 @@ Result scale_band(const Layer& layer, const BandOptions& options, Session& sessi
 std::array<double, equalizer_bands + 1> equalizer_limits(const Layer& layer, const PyramidOptions& options) {
     const double finest = 2 * mean_edge_length(layer.mesh.faces, layer.mesh.positions);
     const double vertices = static_cast<double>(layer.mesh.positions.size());
-    const double ratio = std::sqrt(std::max(2.0, vertices / options.base_vertices));
+    const double ratio = std::sqrt(std::max(2.0, vertices / options.hierarchy.base_vertices));
     std::array<double, equalizer_bands + 1> limit{};
     for (int i = 0; i <= equalizer_bands; ++i)
         limit[i] = finest * std::pow(ratio, static_cast<double>(i) / equalizer_bands);
@@ -70,7 +70,7 @@ std::array<double, equalizer_bands + 1> equalizer_limits(const Layer& layer, con
 
 Result equalizer(const Layer& layer, const EqualizerOptions& options, Session& session) {
     for (int i = 0; i < equalizer_bands; ++i) require_finite(options.gain[i], "gain_" + std::to_string(i + 1));
-    return filter_bands(layer, options, session, [&](const Layer& start, const KeptPyramid& pyramid) {
+    return filter_bands(layer, options, session, [&](const Layer& start, const Pyramid& pyramid) {
         const auto limit = equalizer_limits(start, options.pyramid);
         std::vector<double> gains(pyramid.levels().size() - 1, 1);
         for (int i = 0; i < equalizer_bands; ++i) {

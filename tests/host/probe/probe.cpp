@@ -149,8 +149,8 @@ void bind_keep(Parameters& p, KeepOptions& o) { p.real("value", o.value, {"Value
 /// Keeps a number where a pyramid would be: the adapter does not look inside.
 Result keep(const Layer&, const KeepOptions& o, Session& session) {
     auto number = std::make_shared<const double>(o.value);
-    const auto* address = reinterpret_cast<const KeptPyramid*>(number.get());
-    session.pyramid = std::shared_ptr<const KeptPyramid>(std::move(number), address);
+    const auto* address = reinterpret_cast<const Pyramid*>(number.get());
+    session.pyramid = std::shared_ptr<const Pyramid>(std::move(number), address);
     return {};
 }
 

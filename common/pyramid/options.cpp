@@ -1,0 +1,98 @@
+#include "pyramid/options.h"
+
+#include "mesh/adjacency.h"
+
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace multires {
+namespace {
+
+/// A copy in which what does not count has its default.
+PyramidOptions effective(PyramidOptions o) {
+    if (o.features.from != Features::angle) o.features.angle = FeatureOptions().angle;
+    return o;
+}
+
+std::string number(double x) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.9g", x);
+    return text;
+}
+
+}  // namespace
+
+std::string scheme_tooltip() {
+    std::string text;
+    for (const SchemeRow& row : schemes()) text += (text.empty() ? "" : " ") + row.name + ": " + row.summary + ".";
+    return text;
+}
+
+std::vector<std::string> scheme_names() {
+    std::vector<std::string> names;
+    for (const SchemeRow& row : schemes()) names.push_back(row.name);
+    return names;
+}
+
+PyramidOption pyramid_option(const std::string& name) {
+    PyramidOption found;
+    PyramidOptions options;
+    visit_options(options, [&](const PyramidOption& option, const auto&) {
+        if (option.name == name) found = option;
+    });
+    if (found.name.empty()) throw std::invalid_argument("no option " + name);
+    return found;
+}
+
+void check(const PyramidOptions& options) {
+    PyramidOptions o = effective(options);
+    visit_options(o, [](const PyramidOption& option, const auto& field) {
+        const double value = static_cast<double>(field);
+        require(value >= option.least && value <= option.most,
+                option.name + " must be between " + number(option.least) + " and " + number(option.most));
+    });
+}
+
+void mark_features(Rings& rings, const Layer& layer, Features features, double angle) {
+    const auto edges = [&](const std::vector<std::uint8_t>& bits, std::uint8_t flip, const char* what) {
+        require(!bits.empty(), std::string("features: the mesh has no ") + what + " edges");
+        std::vector<std::uint8_t> marked = bits;
+        for (std::uint8_t& b : marked) b ^= flip;
+        mark_features(rings, layer.mesh.faces, marked);
+    };
+    switch (features) {
+    case Features::none:
+        return;
+    case Features::angle:
+        require(angle > 0 && angle < 180, "feature_angle must be between 0 and 180 degrees");
+        return mark_features_by_angle(rings, layer.mesh.positions, angle);
+    case Features::non_faux_edges:
+        return edges(layer.faux_edges, 7, "faux");
+    case Features::selected_edges:
+        return edges(layer.selected_edges, 0, "selected");
+    }
+}
+
+ContentHash content_hash(const Layer& layer, const PyramidOptions& options) {
+    XXH3_state_t state;
+    XXH3_128bits_reset(&state);
+    const auto add = [&](const void* data, std::size_t bytes) {
+        if (bytes) XXH3_128bits_update(&state, data, bytes);
+    };
+    PyramidOptions o = effective(options);
+    visit_options(o, [&](const PyramidOption&, const auto& field) {
+        const double value = static_cast<double>(field);
+        add(&value, sizeof value);
+    });
+    const ContentHash shape = shape_hash(layer.mesh.positions, layer.mesh.faces);
+    add(shape.data(), sizeof shape);
+    if (o.features.from == Features::non_faux_edges) add(layer.faux_edges.data(), layer.faux_edges.size());
+    if (o.features.from == Features::selected_edges) add(layer.selected_edges.data(), layer.selected_edges.size());
+    const XXH128_hash_t hash = XXH3_128bits_digest(&state);
+    return {hash.low64, hash.high64};
+}
+
+}  // namespace multires

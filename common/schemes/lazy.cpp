@@ -1,0 +1,77 @@
+#include "schemes/relaxed_rows.h"
+#include "schemes/table.h"
+
+// The critically sampled form of burt_adelson.cpp: even vertices stay as they are ("lazy", Sweldens 1998) and have no
+// details; an odd one is predicted from the vertices that are there when it comes back, finished ones of its own level
+// among them, and its detail turns with their frame:
+//
+//     analysis   d_odd = f_odd - R f,  set by set
+//     synthesis  the same line solved for f_odd, the sets in their order
+//
+// As many coefficients as values and half the weights: the least memory and time. Nothing keeps fine waves from coming
+// back as coarse ones in the coarse levels, which are subsets of the values.
+
+namespace multires {
+namespace {
+
+using namespace relaxed_rows;
+
+class Lazy final : public Scheme {
+public:
+    Lazy(const Hierarchy& h, const SchemeOptions& options) : Scheme(h) {
+        for (const Level& level : h.levels) odd_.emplace_back(level.odd, h.positions, options);
+    }
+
+    Coefficients analyse(Field f, Storage storage) const override {
+        return analyse_levels(hierarchy(), std::move(f), storage, [&](std::size_t k, const Field& values) {
+            std::vector<Subband> bands;
+            bands.push_back(values_at(hierarchy().levels[k].odd, values, has_frames(values)));
+            predict_odd(hierarchy(), k, odd_[k], values,
+                        [&](Index r, const double* predicted) { subtract(bands[0], r, predicted, values); });
+            return bands;
+        });
+    }
+
+    Field synthesise(const Coefficients& coefficients, const Synthesis& how) const override {
+        return synthesise_levels(hierarchy(), coefficients, how,
+                                 [&](std::size_t k, const std::vector<Subband>* d, double gain, Field& f) {
+                                     if (!d)
+                                         synthesise_level(k, Details<double>(), f);
+                                     else if (d->front().single.empty())
+                                         synthesise_level(k, details_of<double>(d->front(), gain, has_frames(f)), f);
+                                     else
+                                         synthesise_level(k, details_of<float>(d->front(), gain, has_frames(f)), f);
+                                 });
+    }
+
+    std::size_t bytes() const override { return relaxed_rows::bytes(odd_); }
+
+private:
+    template <class Value>
+    void synthesise_level(std::size_t k, const Details<Value>& odd, Field& f) const {
+        const Index coarse = hierarchy().levels[k].coarse;
+        predict_odd(hierarchy(), k, odd_[k], f,
+                    [&](Index r, const double* predicted) { odd.add(r, predicted, f, f.row(coarse + r)); });
+    }
+
+    std::vector<Stencil> odd_;
+};
+
+}  // namespace
+
+SchemeRow lazy_scheme() {
+    Capabilities can;
+    can.local_frames = true;
+    can.critically_sampled = true;
+    can.even_rings = false;
+    return {"Lazy",
+            "vertices that stay keep their values and have no details: the least memory and time, but fine noise comes "
+            "back in coarse levels",
+            "<i>Sweldens</i>, <b>\"The Lifting Scheme: A Construction of Second Generation Wavelets\"</b>, SIAM "
+            "Journal on Mathematical Analysis 1998",
+            can, [](const Hierarchy& hierarchy, const SchemeOptions& options) -> std::unique_ptr<Scheme> {
+                return std::make_unique<Lazy>(hierarchy, options);
+            }};
+}
+
+}  // namespace multires
