@@ -16,7 +16,7 @@ __all__ = [
     "unsharp",
 ]
 
-Scheme: TypeAlias = Literal["Roy", "Guskov"]
+Scheme: TypeAlias = Literal["Roy", "Guskov", "Lazy"]
 Operator: TypeAlias = Literal[
     "umbrella", "cotangent", "cotangent clamped", "cotangent Delaunay", "second difference",
     "second difference with flaps",
@@ -36,7 +36,8 @@ class Pyramid:
 
     Args:
         scheme: Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine structure
-            follows when coarse structure is changed. Default: Guskov.
+            follows when coarse structure is changed. Lazy: vertices that stay keep their values and have no details:
+            the least memory and time, but fine noise comes back in coarse levels. Default: Guskov.
         operator: Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape
             best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
             Default: second difference with flaps.
