@@ -33,6 +33,9 @@ private:
     std::size_t size_, at_ = 0;
 };
 
+/// Inputs that were not refused.
+inline long worked = 0;
+
 }  // namespace multires::fuzz
 
 /// Stops with a core dump, in all kinds of builds: what fuzzers look for.

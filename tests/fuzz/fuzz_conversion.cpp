@@ -118,6 +118,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     multires::fuzz::fill(mesh, in);
     try {
         multires::fuzz::convert(mesh, in);
+        ++multires::fuzz::worked;
     } catch (const multires::InputError&) {
     }
     return 0;

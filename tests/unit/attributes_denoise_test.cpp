@@ -83,7 +83,9 @@ TEST(DenoiseAttributes, FindsTheNoiseWhateverTheSchemeAndOperator) {
                 options.pyramid.scheme.row = scheme;
                 options.pyramid.scheme.op = op;
                 const Result result = denoise(scene().with_noise(deviation, 0), options);
-                EXPECT_NEAR(reported<double>(result, "quality_noise"), deviation, 0.15 * deviation);
+                const double found = reported<double>(result, "quality_noise");
+                EXPECT_GT(found, deviation);  // the scene's own detail counts as noise: 4 to 14 %
+                EXPECT_LT(found, 1.15 * deviation);
             }
 }
 

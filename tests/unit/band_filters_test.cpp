@@ -63,9 +63,9 @@ TEST(BandFilters, LowPassKeepsTheLowAndRemovesTheHighBand) {
         const BandsLeft left(sphere(), *run(low_pass, layer_of(sphere().mesh), options).positions);
         EXPECT_GE(left.low, 0.95);
         EXPECT_LE(left.low, 1.01);
-        EXPECT_LE(std::abs(left.high), 0.10);
-        EXPECT_LE(left.residual, 0.7);  // irregular levels turn a part of the bands into something else
-        RecordProperty("residual", std::to_string(left.residual));
+        EXPECT_LE(std::abs(left.high), 0.08);  // found: 0.075
+        // Irregular levels turn a part of the bands into something else: 0.49 of the high band by default, 0.63 Roy's.
+        EXPECT_LE(left.residual, 0.65);
     }
 }
 
@@ -78,8 +78,8 @@ TEST(BandFilters, StopBandRemovesTheHighBandOnly) {
         const BandsLeft left(sphere(), *run(scale_band, layer_of(sphere().mesh), options).positions);
         EXPECT_GE(left.low, 0.95);
         EXPECT_LE(left.low, 1.01);
-        EXPECT_LE(std::abs(left.high), 0.10);
-        EXPECT_LE(left.residual, 0.7);
+        EXPECT_LE(std::abs(left.high), 0.08);  // as for the low pass
+        EXPECT_LE(left.residual, 0.65);
     }
 }
 
@@ -91,8 +91,8 @@ TEST(BandFilters, EnhanceDoublesTheHighBandOnly) {
         options.gain = 2;
         const BandsLeft left(sphere(), *run(scale_band, layer_of(sphere().mesh), options).positions);
         EXPECT_NEAR(left.low, 1, 0.05);
-        EXPECT_NEAR(left.high, 2, 0.1);
-        EXPECT_LE(left.residual, 0.7);
+        EXPECT_NEAR(left.high, 2, 0.09);
+        EXPECT_LE(left.residual, 0.65);
     }
 }
 
@@ -223,9 +223,34 @@ TEST(BandFilters, FollowRigidMotionsAndScale) {
     EXPECT_LE(largest_distance(*run(unsharp, moved, sharp).positions, expected), 1e-9 * box_diagonal(moved));
 }
 
-TEST(Unsharp, IsLinearInItsStrength) {
+namespace {
+
+/// Seven steps of p_i <- sum_j w_ij p_j / sum_j w_ij over a closed mesh, from the faces: weights of 1, or cot alpha +
+/// cot beta of the angles across from the edge, of the mesh as it was.
+Positions smoothed_by_definition(const Mesh& mesh, bool cotangents) {
+    const Positions& start = mesh.positions;
+    Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(static_cast<Index>(start.size()), static_cast<Index>(start.size()));
+    for (const Face& f : mesh.faces)
+        for (int k = 0; k < 3; ++k) {
+            const Index i = f[k], j = f[(k + 1) % 3], across = f[(k + 2) % 3];
+            const Vec3 a = start[i] - start[across], b = start[j] - start[across];
+            const double weight = cotangents ? a.dot(b) / a.cross(b).norm() : 0.5;  // half an edge for each face
+            weights(i, j) += weight, weights(j, i) += weight;
+        }
+    for (Index i = 0; i < weights.rows(); ++i) weights.row(i) /= weights.row(i).sum();
+    Eigen::MatrixX3d p(start.size(), 3);
+    for (std::size_t i = 0; i < start.size(); ++i) p.row(static_cast<Index>(i)) = start[i];
+    for (int step = 0; step < 7; ++step) p = (weights * p).eval();
+    Positions out(start.size());
+    for (std::size_t i = 0; i < start.size(); ++i) out[i] = p.row(static_cast<Index>(i));
+    return out;
+}
+
+}  // namespace
+
+TEST(Unsharp, IsLinearInItsStrengthAndSmoothsByTheOperatorAtZero) {
     const Layer layer = layer_of(shapes::scan(1200));
-    for (const Operator op : {Operator::umbrella, Operator::cotangent_delaunay, Operator::second_difference_flaps}) {
+    for (const Operator op : {Operator::umbrella, Operator::cotangent, Operator::second_difference_flaps}) {
         UnsharpOptions options;
         options.op = op;
         options.iterations = 7;
@@ -234,13 +259,10 @@ TEST(Unsharp, IsLinearInItsStrength) {
             return *run(unsharp, layer, options).positions;
         };
         EXPECT_EQ(at(1), layer.mesh.positions);
-        Rings rings = rings_with_flaps(layer.mesh);
-        RelaxationOptions relaxation_options;
-        relaxation_options.op = op;
-        const RingWeights rows = ring_weights(rings, layer.mesh.positions, relaxation_options);
-        Positions smooth = layer.mesh.positions;
-        for (int i = 0; i < 7; ++i) smooth = relaxed(rings, rows, smooth);
-        EXPECT_LE(largest_distance(at(0), smooth), 1e-13);
+        const Positions smooth = at(0);
+        if (op != Operator::second_difference_flaps) {  // whose weights have a test of their own
+            EXPECT_LE(largest_distance(smooth, smoothed_by_definition(layer.mesh, op == Operator::cotangent)), 1e-12);
+        }
         EXPECT_GT(largest_distance(smooth, layer.mesh.positions), 1e-3);
         const Positions half = at(0.5), triple = at(3);
         for (std::size_t i = 0; i < smooth.size(); ++i) {
@@ -276,6 +298,19 @@ TEST(DetailQuality, IsWhatTheBandAdds) {
     EXPECT_EQ(number(length.report, "largest_detail"), most);
     EXPECT_EQ(number(length.report, "least_detail"), least);
     EXPECT_NEAR(number(length.report, "rms_detail"), rms(*length.quality), 1e-15);
+}
+
+TEST(DetailQuality, SignedPartFollowsTheKnownFineComponent) {
+    DetailOptions options;
+    options.band = {Unit::wavelength, 0, above_high, 0};
+    options.signed_normal = true;
+    const Result result = run(detail_quality, layer_of(sphere().mesh), options);
+    double product = 0, known = 0;  // least squares of the detail on the component
+    for (std::size_t i = 0; i < sphere().high.size(); ++i) {
+        product += (*result.quality)[i] * sphere().high[i];
+        known += sphere().high[i] * sphere().high[i];
+    }
+    EXPECT_NEAR(product / known, 1, 0.1);  // the low pass leaves 0.075 of it
 }
 
 TEST(DetailQuality, SignedPartIsPositiveWhereBumpsPointOutwards) {

@@ -124,7 +124,8 @@ TEST(Denoise, DeviationOfTheNoiseIsFound) {
     for (const Mesh& mesh : {shapes::plane(40), shapes::irregular_sphere(4000), shapes::icosphere(20)})
         for (const double deviation : {0.05, 0.1, 0.15, 0.2}) {
             const double found = noise_deviation(noisy(mesh, deviation)) / edge_of(mesh);
-            EXPECT_NEAR(found / deviation, 1, 0.25) << deviation;
+            // Found: 0.93, where noise of a fifth of an edge turns normals, to 1.07, where a coarse sphere is curved.
+            EXPECT_NEAR(found / deviation, 1, 0.08) << deviation;
         }
     EXPECT_EQ(noise_deviation(shapes::triangle()), 0);
     EXPECT_LE(noise_deviation(shapes::plane(20)), 1e-15);

@@ -105,12 +105,12 @@ inline void expect_stored_rings(const Hierarchy& h, const Mesh& mesh, Index stri
         for (Index r = 0; r < level.odd.rows(); ++r) {
             const Index p = level.coarse + r;
             if (p % stride != 0) continue;
-            const Rings rings = rings_with_flaps(mesh_of_prefix(h, mesh, p + 1));
-            Row stored = plain_row(level.odd, r), now = plain_row(rings, p);
-            // A flap vertex that is removed in the same set is left out, one beyond it has not been inserted yet.
-            for (auto& [link, flap] : stored.flap)
-                if (flap < 0 && h.levels.size() < static_cast<std::size_t>(h.vertices() - h.size.back()))
-                    flap = now.flap[link];
+            const auto next_set = std::upper_bound(level.sets.begin(), level.sets.end(), r);
+            const Index begin = level.coarse + *(next_set - 1), end = level.coarse + *next_set;
+            // The mesh that the set was removed from. Of it, flaps in the same set are left out of the stored row.
+            Row stored = plain_row(level.odd, r), now = plain_row(rings_with_flaps(mesh_of_prefix(h, mesh, end)), p);
+            for (auto& [link, flap] : now.flap)
+                if (flap >= begin) flap = -1;
             ASSERT_EQ(stored, now) << "place " << p << " of level " << k;
         }
     }

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 #include <random>
 #include <string>
 
@@ -27,12 +28,24 @@ const Filter& filter_named(const std::string& name) {
     throw std::logic_error("no filter " + name);
 }
 
-Layer with_data(Mesh mesh) { return fixtures::with_everything(std::move(mesh), fixtures::random_value); }
+Layer with_data(Mesh mesh) {
+    return fixtures::marked(fixtures::with_everything(std::move(mesh), fixtures::random_value));
+}
 
 Result run(const Filter& filter, const Layer& layer, const std::map<std::string, double>& values = {}) {
     Given given(values);
     Session session;
     return filter.run(given, layer, session);
+}
+
+/// Nothing if it is refused, which it may be for its parameters only: the layer has all that filters ask for.
+std::optional<Result> run_unless_absurd(const Filter& filter, const Layer& layer, const Variant& variant) {
+    try {
+        return run(filter, layer, variant.values);
+    } catch (const InputError& e) {
+        EXPECT_TRUE(fixtures::blames_parameters(e.what())) << e.what();
+        return std::nullopt;
+    }
 }
 
 bool finite(const std::vector<double>& numbers) {
@@ -79,10 +92,8 @@ TEST_P(Properties, EveryVariantGivesTheSameBitsForOneAndTwoThreads) {
         std::vector<double> results[2];
         for (const int threads : {1, 2}) {
             const Threads scope(threads);
-            try {
-                results[threads - 1] = fixtures::numbers(run(filter(), layer, variant.values));
-            } catch (const InputError&) {  // for both
-            }
+            const auto result = run_unless_absurd(filter(), layer, variant);
+            if (result) results[threads - 1] = fixtures::numbers(*result);
         }
         EXPECT_EQ(results[0], results[1]);
     }
@@ -193,6 +204,9 @@ namespace {
 /// Of the box diagonal, or of the range of an attribute; pyramids stored as float have that precision.
 double tolerance_of(const Variant& variant) { return variant.name == "storage=1" ? 1e-7 : 1e-9; }
 
+/// Bits of the edges (0, 1), (1, 2), (2, 0) of a face whose corners 1 and 2 change places.
+std::uint8_t edges_of_reversed(std::uint8_t edges) { return (edges & 2) | (edges & 1) << 2 | (edges & 4) >> 2; }
+
 /// A similarity, mirrors included.
 struct Placing {
     std::string name;
@@ -208,6 +222,8 @@ struct Placing {
         for (std::size_t f = 0; f < layer.mesh.faces.size(); ++f) {
             std::swap(layer.mesh.faces[f][1], layer.mesh.faces[f][2]);
             if (!layer.wedges.empty()) std::swap(layer.wedges[3 * f + 1], layer.wedges[3 * f + 2]);
+            for (auto* edges : {&layer.faux_edges, &layer.selected_edges})
+                if (!edges->empty()) (*edges)[f] = edges_of_reversed((*edges)[f]);
         }
         return layer;
     }
@@ -280,16 +296,12 @@ TEST_P(Properties, ResultsMoveTurnScaleAndMirrorWithTheMesh) {
         return Vec3(high - low);
     }();
     for (const Variant& variant : variants(filter(), layer)) {
-        Result here;
-        try {
-            here = run(filter(), layer, variant.values);
-        } catch (const InputError&) {
-            continue;
-        }
+        const auto here = run_unless_absurd(filter(), layer, variant);
+        if (!here) continue;
         for (const Placing& place : placings()) {
             if (!applies(place, filter(), variant)) continue;
             SCOPED_TRACE(variant.name + ", " + place.name);
-            expect_placed(place, here, run(filter(), place(layer), variant.values), box.norm(), tolerance_of(variant));
+            expect_placed(place, *here, run(filter(), place(layer), variant.values), box.norm(), tolerance_of(variant));
         }
     }
 }
@@ -306,10 +318,15 @@ constexpr int random_meshes = 150;
 constexpr int random_meshes = 2000;
 #endif
 
-/// Another one in every run; MULTIRES_SEED repeats one.
+/// The same in every run, so that a failure is one of the change at hand; by hand, MULTIRES_SEED=random looks
+/// further, and MULTIRES_SEED=NUMBER repeats what it found.
 std::uint64_t first_seed() {
-    if (const char* text = std::getenv("MULTIRES_SEED")) return std::strtoull(text, nullptr, 10);
-    return std::random_device()();
+    const char* const text = std::getenv("MULTIRES_SEED");
+    if (!text) return 1;
+    const std::uint64_t seed =
+        std::string(text) == "random" ? std::random_device()() : std::strtoull(text, nullptr, 10);
+    std::cout << "MULTIRES_SEED=" << seed << "\n";
+    return seed;
 }
 
 /// A variant of the filter with some numbers changed too.
@@ -325,12 +342,13 @@ Variant random_variant(const Filter& filter, const Layer& layer, shapes::Random&
     return v;
 }
 
-void check_random(const Filter& filter, const Layer& layer, const Variant& variant) {
+/// False if it is refused.
+bool check_random(const Filter& filter, const Layer& layer, const Variant& variant) {
     Result result;
     try {
         result = run(filter, layer, variant.values);
     } catch (const InputError&) {
-        return;
+        return false;
     }
     EXPECT_TRUE(finite(fixtures::numbers(result)));
     if (result.positions) {
@@ -340,18 +358,19 @@ void check_random(const Filter& filter, const Layer& layer, const Variant& varia
         for (std::size_t i = 0; i < used.size(); ++i)
             EXPECT_TRUE(used[i] || (*result.positions)[i] == layer.mesh.positions[i]) << "moved vertex " << i;
     }
-    if (!result.layer) return;
+    if (!result.layer) return true;
     const auto vertices = static_cast<Index>(result.layer->source_vertex.size());
     for (const Face& f : result.layer->faces)
-        for (const Index v : f) ASSERT_TRUE(v >= 0 && v < vertices);
+        for (const Index v : f) EXPECT_TRUE(v >= 0 && v < vertices);
+    return true;
 }
 
 }  // namespace
 
 TEST(RandomMeshes, EveryFilterWorksOrRefuses) {
     const std::uint64_t first = first_seed();
-    std::cout << "MULTIRES_SEED=" << first << "\n";
     const auto all = all_filters();
+    std::map<std::string, int> worked;
     for (int i = 0; i < random_meshes && !testing::Test::HasFailure(); ++i) {
         const std::uint64_t seed = first + i;
         shapes::Random random(seed);
@@ -359,14 +378,17 @@ TEST(RandomMeshes, EveryFilterWorksOrRefuses) {
         for (const Filter* filter : all) {
             const Variant variant = random_variant(*filter, layer, random);
             SCOPED_TRACE("MULTIRES_SEED=" + std::to_string(seed) + ", " + filter->python_name + ", " + variant.name);
-            check_random(*filter, layer, variant);
+            worked[filter->python_name] += check_random(*filter, layer, variant);
         }
     }
+    if (testing::Test::HasFailure()) return;
+    // Level as New Layer finds no level in a third of the meshes, few of which have more than 100 vertices; of the
+    // others nearly all work.
+    for (const Filter* filter : all) EXPECT_GT(worked[filter->python_name], 0.6 * random_meshes) << filter->python_name;
 }
 
 TEST(RandomMeshes, GainsOfOneGiveTheMeshBack) {
     const std::uint64_t first = first_seed();
-    std::cout << "MULTIRES_SEED=" << first << "\n";
     for (int i = 0; i < random_meshes && !testing::Test::HasFailure(); ++i) {
         const std::uint64_t seed = first + i;
         SCOPED_TRACE("MULTIRES_SEED=" + std::to_string(seed));
