@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-/// What every filter gets and gives. A filter is a pure function of a layer and its options: it returns a Result and
-/// never touches the host's document, so that a failure or a cancel leaves everything as it was.
+/// What every filter gets and gives. A filter is a pure function of a layer (or several) and its options: it returns a
+/// Result and never touches the host's document, so that a failure or a cancel leaves everything as it was.
 namespace multires {
 
 /// What a filter wants changed. Absent parts stay as they are; the host writes all of it or nothing.
@@ -23,6 +23,23 @@ struct Result {
     std::optional<std::vector<Wedge>> wedges;    ///< 3 #F, new texture coordinates of the faces' corners
     std::optional<DerivedMesh> layer;            ///< becomes a new layer of the document
     Report report;
+};
+
+/// Names another layer in the options of a filter: its place in Inputs::others. Hosts fill it; empty: there is none.
+struct LayerRef {
+    std::optional<std::size_t> place;
+};
+
+/// The layers a filter works on. None of them changes but by way of the Result, which belongs to the current one.
+struct Inputs {
+    const Layer& current;
+    std::vector<const Layer*> others = {};  ///< those that the options name; may be the current one itself
+
+    /// @throws InputError  naming the parameter, if there is no other layer
+    const Layer& other(const LayerRef& ref, const std::string& parameter) const {
+        require(ref.place && *ref.place < others.size(), parameter + ": there is no other layer");
+        return *others[*ref.place];
+    }
 };
 
 class Original;

@@ -34,6 +34,8 @@ struct Layer {
     std::vector<std::uint8_t> faux_edges;       ///< #F, bit k = edge (k, k+1) is faux; empty if none is
     std::vector<std::uint8_t> selected_edges;   ///< #F, bit k = edge (k, k+1) is selected; empty if none is
     std::vector<Wedge> wedges;  ///< 3 #F, corner k of face f at 3 f + k; empty if not asked for or not there
+    /// Places the mesh in the document, where several layers meet; filters of one layer work in its own coordinates.
+    Eigen::Matrix4d to_world = Eigen::Matrix4d::Identity();
 };
 
 /// A mesh made of vertices of another one; the host carries all attributes over by these indices.

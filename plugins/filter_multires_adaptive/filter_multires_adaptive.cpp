@@ -22,35 +22,36 @@ AdaptiveOptions adaptive_defaults(const Layer* layer) {
 
 void bind_threshold(Parameters& p, const std::string& name, DetailThreshold& t, const std::string& label,
                     const std::string& unit) {
-    p.boolean(("use_" + name).c_str(), t.use,
-              {"Use " + label, "Keep vertices for the sake of their " + label + ".", 0, 1, false, "Details"});
-    p.real((name + "_threshold").c_str(), t.threshold,
-           {"Threshold of " + label,
-            "Vertices whose detail is at least this long are kept: " + unit +
-                ". 0 keeps all. With a target other than the threshold it only says how the kinds of detail compare.",
-            0, 1e30, false, "Details"});
+    p.add("use_" + name, &t.use, "Use " + label, "Keep vertices for the sake of their " + label + ".").in("Details");
+    p.add(name + "_threshold", &t.threshold, "Threshold of " + label,
+          "Vertices whose detail is at least this long are kept: " + unit +
+              ". 0 keeps all. With a target other than the threshold it only says how the kinds of detail compare.")
+        .at_least(0)
+        .in("Details");
 }
 
 void bind_target(Parameters& p, AdaptiveOptions& o) {
     const char* group = "Target";
-    p.choice("target", o.target, {"threshold", "faces", "vertices", "RMS distance", "largest distance"},
-             {"Target",
-              "What decides how many vertices are kept: the thresholds as given; a number of faces or vertices; or a "
-              "bound on the measured two-sided distance to the input, with as few vertices as are found.",
-              0, 4, false, group});
-    p.choice(
-        "unit", o.unit, {"mesh units", "percent"},
-        {"Unit of lengths",
-         "Of the threshold of shape and of the error bound: mesh units, or percent of the diagonal of the bounding "
-         "box (1 is 1 %).",
-         0, 1, false, group});
-    p.integer("faces", o.faces,
-              {"Faces", "Target faces: at most so many faces; the base may have more.", 0, 2000000000, false, group});
-    p.integer("vertices", o.vertices,
-              {"Vertices", "Target vertices: so many, not counting those in no face.", 0, 2000000000, false, group});
-    p.real("error", o.error,
-           {"Error bound", "Targets RMS distance and largest distance: the bound, in the unit of lengths.", 0, 1e30,
-            false, group});
+    p.add("target", Choice(o.target, {"threshold", "faces", "vertices", "RMS distance", "largest distance"}), "Target",
+          "What decides how many vertices are kept: the thresholds as given; a number of faces or vertices; or a "
+          "bound on the measured two-sided distance to the input, with as few vertices as are found.")
+        .in(group);
+    p.add("unit", Choice(o.unit, {"mesh units", "percent"}), "Unit of lengths",
+          "Of the threshold of shape and of the error bound: mesh units, or percent of the diagonal of the bounding "
+          "box (1 is 1 %).")
+        .in(group);
+    p.add("faces", &o.faces, "Faces", "Target faces: at most so many faces; the base may have more.")
+        .at_least(0)
+        .in(group)
+        .derived();
+    p.add("vertices", &o.vertices, "Vertices", "Target vertices: so many, not counting those in no face.")
+        .at_least(0)
+        .in(group)
+        .derived();
+    p.add("error", &o.error, "Error bound",
+          "Targets RMS distance and largest distance: the bound, in the unit of lengths.")
+        .at_least(0)
+        .in(group);
 }
 
 void bind_adaptive(Parameters& p, AdaptiveOptions& o) {
@@ -61,37 +62,40 @@ void bind_adaptive(Parameters& p, AdaptiveOptions& o) {
     bind_threshold(p, "texcoord", o.texcoord, "texture coordinates",
                    "length of the difference in u and v, of wedges if there are any, of vertices otherwise");
     bind_threshold(p, "normal", o.normal, "normals", "degrees");
-    p.choice("criterion", o.criterion, {"area error", "local error", "detail"},
-             {"Detail of shape",
-              "Area error: what removing the vertex adds to the RMS distance of the surfaces; the fewest faces for an "
-              "RMS distance. Local error: the distance it adds at the vertex, whatever the area; keeps small features. "
-              "Detail: distance to where relaxation predicts the vertex (Roy).",
-              0, 2, false, "Details"});
-    p.boolean("region_of_interest", o.region_of_interest,
-              {"Selection in full",
-               "Keep selected vertices and faces as they are, and level of detail by the thresholds elsewhere.", 0, 1,
-               false, "Target"});
-    p.boolean("fit", o.fit,
-              {"Fit positions",
-               "Move the vertices kept to where they fit the input best. The boundary and the selection kept in full "
-               "stay where they are.",
-               0, 1, false, "Target"});
-    p.boolean("measure", o.measure,
-              {"Measure the distance", "Report the two-sided distance to the input.", 0, 1, false, "Target"});
+    p.add("criterion", Choice(o.criterion, {"area error", "local error", "detail"}), "Detail of shape",
+          "Area error: what removing the vertex adds to the RMS distance of the surfaces; the fewest faces for an "
+          "RMS distance. Local error: the distance it adds at the vertex, whatever the area; keeps small features. "
+          "Detail: distance to where relaxation predicts the vertex (Roy).")
+        .in("Details");
+    p.add("region_of_interest", &o.region_of_interest, "Selection in full",
+          "Keep selected vertices and faces as they are, and level of detail by the thresholds elsewhere.")
+        .in("Target");
+    p.add("fit", &o.fit, "Fit positions",
+          "Move the vertices kept to where they fit the input best. The boundary and the selection kept in full "
+          "stay where they are.")
+        .in("Target");
+    p.add("measure", &o.measure, "Measure the distance", "Report the two-sided distance to the input.").in("Target");
     const char* band = "Band";
-    p.real("band_gain", o.band_gain,
-           {"Gain of a band",
-            "Applied to the input first: 0 removes the details between the two wavelengths below, 1 changes nothing.",
-            -1000, 1000, true, band});
-    p.real("finest", o.band.finest,
-           {"Finest", "Fine limit of the band: wavelength in mesh units.", 0, 1e30, true, band});
-    p.real("coarsest", o.band.coarsest,
-           {"Coarsest", "Coarse limit of the band: wavelength in mesh units.", 0, 1e30, true, band});
+    p.add("band_gain", &o.band_gain, "Gain of a band",
+          "Applied to the input first: 0 removes the details between the two wavelengths below, 1 changes nothing.")
+        .between(-1000, 1000)
+        .advanced(band);
+    p.add("finest", &o.band.finest, "Finest", "Fine limit of the band: wavelength in mesh units.")
+        .at_least(0)
+        .advanced(band)
+        .derived();
+    p.add("coarsest", &o.band.coarsest, "Coarsest", "Coarse limit of the band: wavelength in mesh units.")
+        .at_least(0)
+        .advanced(band)
+        .derived();
     bind_operator(p, o.op, "Pyramid");
-    p.integer("base_vertices", o.base_vertices,
-              {"Base vertices", "Vertices of the base mesh.", 4, 1000000000, true, "Pyramid"});
-    p.real("normal_limit", o.normal_limit,
-           {"Normal limit", "Degrees by which removing a vertex may turn a face at most.", 1, 180, true, "Pyramid"});
+    p.add("base_vertices", &o.base_vertices, "Base vertices", "Vertices of the base mesh.")
+        .at_least(4)
+        .advanced("Pyramid");
+    p.add("normal_limit", Angle{&o.normal_limit}, "Normal limit",
+          "Degrees by which removing a vertex may turn a face at most.")
+        .between(1, 180)
+        .advanced("Pyramid");
     bind_features(p, o.features, o.feature_angle);
 }
 
@@ -118,23 +122,15 @@ const Plugin& table() {
     static const Plugin plugin{
         "FilterMultiresAdaptive",
         {
-            filter<AdaptiveOptions>(
-                {"Multiresolution: Adaptive Reconstruction",
-                 "generate_multires_adaptive_reconstruction",
-                 std::string(
-                     "Makes a new layer that holds only the vertices whose detail exceeds a threshold, and all they "
-                     "depend on: many where the surface, its colour, quality or texture changes, few elsewhere. The "
-                     "threshold can also be found for a number of faces or vertices or an error bound. The custom "
-                     "vertex attribute <i>source_vertex</i> holds the index of each vertex in the input.<br>") +
-                     cite_roy,
-                 MenuClass::remeshing,
-                 faces,
-                 reads,
-                 new_layer,
-                 {},
-                 {},
-                 adaptive_returns},
-                adaptive_defaults, bind_adaptive, adaptive_reconstruction),
+            filter({"Multiresolution: Adaptive Reconstruction", "generate_multires_adaptive_reconstruction",
+                    std::string(
+                        "Makes a new layer that holds only the vertices whose detail exceeds a threshold, and all they "
+                        "depend on: many where the surface, its colour, quality or texture changes, few elsewhere. The "
+                        "threshold can also be found for a number of faces or vertices or an error bound. The custom "
+                        "vertex attribute <i>source_vertex</i> holds the index of each vertex in the input.<br>") +
+                        cite_roy,
+                    MenuClass::remeshing, faces, reads, new_layer, adaptive_returns},
+                   adaptive_defaults, bind_adaptive, adaptive_reconstruction),
         }};
     return plugin;
 }

@@ -10,62 +10,72 @@
 namespace multires::plugin {
 namespace {
 
-LowPassOptions low_pass_defaults(const Layer* layer) {
-    LowPassOptions o;
+struct LowPassRow : LowPassOptions {
+    bool cutoff_given = false;
+};
+
+LowPassRow low_pass_defaults(const Layer* layer) {
+    LowPassRow o;
     o.cutoff = layer ? default_cutoff(*layer, o.unit) : 1;
     o.region.selected = has_selection(layer);
     return o;
 }
 
-void bind_low_pass(Parameters& p, LowPassOptions& o) {
+void bind_low_pass(Parameters& p, LowPassRow& o) {
     bind_unit(p, o.unit);
-    p.real("cutoff", o.cutoff,
-           {"Cutoff", "Everything finer than this is removed: shorter waves, lower levels, levels with more vertices.",
-            0, 1e30, false, "Band"});
+    p.add("cutoff", &o.cutoff, "Cutoff",
+          "Everything finer than this is removed: shorter waves, lower levels, levels with more vertices.")
+        .at_least(0)
+        .in("Band")
+        .derived(o.cutoff_given);
     bind_softness(p, o.softness);
     bind_region(p, o.region);
     bind_relative_to(p, o.relative_to);
     bind_pyramid(p, o.pyramid);
 }
 
-Result run_low_pass(const Layer& layer, const LowPassOptions& options, Session& session) {
-    LowPassOptions o = options;
-    if (o.unit != Unit::wavelength && is_still(o.cutoff, default_cutoff(layer, Unit::wavelength)))
-        o.cutoff = default_cutoff(layer, o.unit);
+Result run_low_pass(const Layer& layer, const LowPassRow& row, Session& session) {
+    LowPassOptions o = row;
+    if (!row.cutoff_given) o.cutoff = default_cutoff(layer, o.unit);
     return low_pass(layer, o, session);
 }
 
-BandOptions band_defaults(const Layer* layer) {
-    BandOptions o;
+struct BandRow : BandOptions {
+    GivenLimits given;
+};
+
+BandRow band_defaults(const Layer* layer) {
+    BandRow o;
     o.band.coarsest = 1;
     if (layer) o.band = default_band(*layer, Unit::wavelength);
     o.region.selected = has_selection(layer);
     return o;
 }
 
-void bind_stop_band(Parameters& p, BandOptions& o) {
-    bind_band(p, o.band);
+void bind_stop_band(Parameters& p, BandRow& o) {
+    bind_band(p, o.band, o.given);
     bind_region(p, o.region);
     bind_relative_to(p, o.relative_to);
     bind_pyramid(p, o.pyramid);
 }
 
-BandOptions enhance_defaults(const Layer* layer) {
-    BandOptions o = band_defaults(layer);
+BandRow enhance_defaults(const Layer* layer) {
+    BandRow o = band_defaults(layer);
     o.gain = 2;
     return o;
 }
 
-void bind_enhance(Parameters& p, BandOptions& o) {
-    p.slider("gain", o.gain,
-             {"Gain", "Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them.", 0, 10,
-              false, "Band"});
+void bind_enhance(Parameters& p, BandRow& o) {
+    p.add("gain", &o.gain, "Gain",
+          "Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them.")
+        .slider(0, 10)
+        .in("Band");
     bind_stop_band(p, o);
 }
 
-Result run_band(const Layer& layer, const BandOptions& options, Session& session) {
-    BandOptions o = options;
-    o.band = in_own_unit(layer, o.band);
+Result run_band(const Layer& layer, const BandRow& row, Session& session) {
+    BandOptions o = row;
+    o.band = with_derived_limits(layer, o.band, row.given);
     return scale_band(layer, o, session);
 }
 
@@ -96,11 +106,10 @@ std::string band_label(const EqualizerRow& o, int i) {
 
 void bind_equalizer(Parameters& p, EqualizerRow& o) {
     for (int i = 0; i < equalizer_bands; ++i)
-        p.slider(
-            ("gain_" + std::to_string(i + 1)).c_str(), o.gain[i],
-            {band_label(o, i),
-             "Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2 doubles it.", 0,
-             4, false, "Bands, fine to coarse"});
+        p.add("gain_" + std::to_string(i + 1), &o.gain[i], band_label(o, i),
+              "Factor for the structure of these wavelengths (mesh units): 1 leaves it, 0 removes it, 2 doubles it.")
+            .slider(0, 4)
+            .in("Bands, fine to coarse");
     bind_softness(p, o.softness);
     bind_region(p, o.region);
     bind_relative_to(p, o.relative_to);
@@ -118,11 +127,11 @@ UnsharpOptions unsharp_defaults(const Layer* layer) {
 }
 
 void bind_unsharp(Parameters& p, UnsharpOptions& o) {
-    p.slider("xi", o.xi,
-             {"Strength",
-              "1 changes nothing; 2 doubles what the relaxation takes away; between 0 and 1 smooths, 0 fully.", 0, 10});
-    p.integer("iterations", o.iterations,
-              {"Relaxation steps", "More steps reach coarser structure; each costs the same.", 1, 10000});
+    p.add("xi", &o.xi, "Strength",
+          "1 changes nothing; 2 doubles what the relaxation takes away; between 0 and 1 smooths, 0 fully.")
+        .slider(0, 10);
+    p.add("iterations", &o.iterations, "Relaxation steps", "More steps reach coarser structure; each costs the same.")
+        .between(1, 10000);
     bind_operator(p, o.op, "Relaxation");
     bind_region(p, o.region);
     bind_relative_to(p, o.relative_to);
@@ -137,77 +146,43 @@ const Plugin& table() {
     static const Plugin plugin{
         "FilterMultiresBand",
         {
-            filter<LowPassOptions>(
-                {"Multiresolution: Low Pass",
-                 "apply_coord_multires_low_pass",
-                 std::string("Removes everything finer than a wavelength and keeps everything coarser, in one pass, "
-                             "without shrinking the shape.<br>") +
-                     cite_guskov,
-                 MenuClass::smoothing,
-                 faces,
-                 reads,
-                 vertex_positions,
-                 {},
-                 {},
-                 gains_returns + change_returns + pyramid_returns},
-                low_pass_defaults, bind_low_pass, run_low_pass),
-            filter<BandOptions>(
-                {"Multiresolution: Stop Band",
-                 "apply_coord_multires_stop_band",
+            filter({"Multiresolution: Low Pass", "apply_coord_multires_low_pass",
+                    std::string("Removes everything finer than a wavelength and keeps everything coarser, in one pass, "
+                                "without shrinking the shape.<br>") +
+                        cite_guskov,
+                    MenuClass::smoothing, faces, reads, vertex_positions,
+                    gains_returns + change_returns + pyramid_returns},
+                   low_pass_defaults, bind_low_pass, run_low_pass),
+            filter(
+                {"Multiresolution: Stop Band", "apply_coord_multires_stop_band",
                  std::string("Removes the structure between two wavelengths; finer engraving and the coarse shape stay."
                              "<br>") +
                      cite_guskov + cite_roy,
-                 MenuClass::smoothing,
-                 faces,
-                 reads,
-                 vertex_positions,
-                 {},
-                 {},
+                 MenuClass::smoothing, faces, reads, vertex_positions,
                  gains_returns + change_returns + pyramid_returns},
                 band_defaults, bind_stop_band, run_band),
-            filter<BandOptions>(
-                {"Multiresolution: Enhance Band",
-                 "apply_coord_multires_enhance",
+            filter(
+                {"Multiresolution: Enhance Band", "apply_coord_multires_enhance",
                  std::string("Multiplies the structure between two wavelengths by a gain: brings out what is worn, or "
                              "weakens what disturbs.<br>") +
                      cite_guskov + cite_roy,
-                 MenuClass::smoothing,
-                 faces,
-                 reads,
-                 vertex_positions,
-                 {},
-                 {},
+                 MenuClass::smoothing, faces, reads, vertex_positions,
                  gains_returns + change_returns + pyramid_returns},
                 enhance_defaults, bind_enhance, run_band),
-            filter<EqualizerRow>(
-                {"Multiresolution: Equalizer",
-                 "apply_coord_multires_equalizer",
-                 std::string("Eight gains for eight bands of wavelengths from fine to coarse, given in the mesh's "
-                             "unit. With all gains at 1 the mesh comes back unchanged.<br>") +
-                     cite_guskov,
-                 MenuClass::smoothing,
-                 faces,
-                 reads,
-                 vertex_positions,
-                 {},
-                 {},
-                 gains_returns + change_returns + pyramid_returns},
-                equalizer_defaults, bind_equalizer, run_equalizer),
-            filter<UnsharpOptions>(
-                {"Multiresolution: Unsharp (Single Level)",
-                 "apply_coord_multires_unsharp",
-                 std::string(
-                     "Strengthens (or weakens) what some steps of relaxation would take away, without a pyramid. "
-                     "Best for small meshes; scans with noise are better served by the bands.<br>") +
-                     cite_guskov,
-                 MenuClass::smoothing,
-                 faces,
-                 reads,
-                 vertex_positions,
-                 {},
-                 {},
-                 change_returns},
-                unsharp_defaults, bind_unsharp, unsharp),
+            filter({"Multiresolution: Equalizer", "apply_coord_multires_equalizer",
+                    std::string("Eight gains for eight bands of wavelengths from fine to coarse, given in the mesh's "
+                                "unit. With all gains at 1 the mesh comes back unchanged.<br>") +
+                        cite_guskov,
+                    MenuClass::smoothing, faces, reads, vertex_positions,
+                    gains_returns + change_returns + pyramid_returns},
+                   equalizer_defaults, bind_equalizer, run_equalizer),
+            filter({"Multiresolution: Unsharp (Single Level)", "apply_coord_multires_unsharp",
+                    std::string(
+                        "Strengthens (or weakens) what some steps of relaxation would take away, without a pyramid. "
+                        "Best for small meshes; scans with noise are better served by the bands.<br>") +
+                        cite_guskov,
+                    MenuClass::smoothing, faces, reads, vertex_positions, change_returns},
+                   unsharp_defaults, bind_unsharp, unsharp),
         }};
     return plugin;
 }

@@ -17,57 +17,56 @@ DenoiseOptions denoise_defaults(const Layer* layer) {
 
 void bind_threshold(Parameters& p, DenoiseOptions& o) {
     const char* group = "Threshold";
-    p.choice(
-        "threshold_unit", o.unit, {"automatic", "mesh units", "percent"},
-        {"Threshold",
-         "Automatic: from the noise found in the mesh. Mesh units, or percent of the diagonal of the bounding box: "
-         "the value below.",
-         0, 2, false, group});
-    p.real("threshold", o.threshold,
-           {"Threshold value",
-            "Size of the noise if the threshold is not automatic: its standard deviation for the normal field, the "
-            "length up to which details are dropped for the others.",
-            0, 1e30, false, group});
-    p.slider("strength", o.strength,
-             {"Strength",
-              "Factor for the noise: 1 removes the noise found, 2 takes twice as much for noise, 0 changes nothing. "
-              "The threshold methods use it if their threshold is automatic.",
-              0, 4, false, group});
+    p.add("threshold_unit", Choice(o.unit, {"automatic", "mesh units", "percent"}), "Threshold",
+          "Automatic: from the noise found in the mesh. Mesh units, or percent of the diagonal of the bounding box: "
+          "the value below.")
+        .in(group);
+    p.add("threshold", &o.threshold, "Threshold value",
+          "Size of the noise if the threshold is not automatic: its standard deviation for the normal field, the "
+          "length up to which details are dropped for the others.")
+        .at_least(0)
+        .in(group);
+    p.add("strength", &o.strength, "Strength",
+          "Factor for the noise: 1 removes the noise found, 2 takes twice as much for noise, 0 changes nothing. "
+          "The threshold methods use it if their threshold is automatic.")
+        .slider(0, 4)
+        .in(group);
 }
 
 void bind_denoise(Parameters& p, DenoiseOptions& o) {
-    p.choice("method", o.method, {"normal field", "soft threshold", "hard threshold"},
-             {"Method",
-              "Normal field: denoises the face normals over several scales and moves the vertices to fit; tunes itself "
-              "and keeps sharp edges. Soft threshold: shrinks the pyramid's details (Roy). Hard threshold: drops small "
-              "details and leaves large ones.",
-              0, 2, false, "Method"});
+    p.add("method", Choice(o.method, {"normal field", "soft threshold", "hard threshold"}), "Method",
+          "Normal field: denoises the face normals over several scales and moves the vertices to fit; tunes itself "
+          "and keeps sharp edges. Soft threshold: shrinks the pyramid's details (Roy). Hard threshold: drops small "
+          "details and leaves large ones.")
+        .in("Method");
     bind_threshold(p, o);
-    p.boolean("keep_volume", o.keep_volume,
-              {"Keep volume", "Shift the surface along its normals until the volume is that of the input.", 0, 1, false,
-               "Method"});
-    p.boolean("confidence", o.confidence,
-              {"Quality as confidence",
-               "Vertex quality says how far a vertex is trusted: 1 stays, 0 gets the full threshold.", 0, 1, false,
-               "Region"});
+    p.add("keep_volume", &o.keep_volume, "Keep volume",
+          "Shift the surface along its normals until the volume is that of the input.")
+        .in("Method");
+    p.add("confidence", &o.confidence, "Quality as confidence",
+          "Vertex quality says how far a vertex is trusted: 1 stays, 0 gets the full threshold.")
+        .in("Region");
     bind_region(p, o.region);
     bind_relative_to(p, o.relative_to);
     const char* details = "Thresholding";
-    p.integer("finest_level", o.finest_level,
-              {"Finest level", "Thresholding: first level whose details are shrunk, 0 is the finest.", 0, 1000000000,
-               true, details});
-    p.integer("coarsest_level", o.coarsest_level,
-              {"Coarsest level", "Thresholding: details of levels up to, but not with, this one are shrunk.", 1,
-               1000000000, true, details});
-    p.boolean("per_level", o.per_level,
-              {"Threshold per level", "Thresholding: scale the automatic threshold to the noise each level holds.", 0,
-               1, true, details});
-    p.boolean(
-        "normal_only", o.normal_only,
-        {"Along the normal only", "Thresholding: leave the tangential part of details as it is.", 0, 1, true, details});
-    p.integer("cycle_spins", o.cycle_spins,
-              {"Cycle spinning", "Thresholding: average over so many different hierarchies; the time grows with it.", 1,
-               64, true, details});
+    p.add("finest_level", &o.finest_level, "Finest level",
+          "Thresholding: first level whose details are shrunk, 0 is the finest.")
+        .at_least(0)
+        .advanced(details);
+    p.add("coarsest_level", &o.coarsest_level, "Coarsest level",
+          "Thresholding: details of levels up to, but not with, this one are shrunk.")
+        .at_least(1)
+        .advanced(details);
+    p.add("per_level", &o.per_level, "Threshold per level",
+          "Thresholding: scale the automatic threshold to the noise each level holds.")
+        .advanced(details);
+    p.add("normal_only", &o.normal_only, "Along the normal only",
+          "Thresholding: leave the tangential part of details as it is.")
+        .advanced(details);
+    p.add("cycle_spins", &o.cycle_spins, "Cycle spinning",
+          "Thresholding: average over so many different hierarchies; the time grows with it.")
+        .between(1, 64)
+        .advanced(details);
     bind_pyramid(p, o.pyramid);
 }
 
@@ -82,29 +81,30 @@ AttributeDenoiseOptions attribute_defaults(const Layer* layer) {
 void bind_attributes(Parameters& p, AttributeDenoiseOptions& o) {
     bind_color_and_quality(p, o.what);
     bind_custom(p, o.what);
+    bind_custom_names(p, o.what);
     bind_linear_light(p, o.linear_light);
     const char* group = "Threshold";
-    p.choice(
-        "rule", o.rule, {"soft", "hard"},
-        {"Rule",
-         "Soft: details up to the threshold go, all others become shorter by it. Hard: details up to the threshold "
-         "go, the others stay.",
-         0, 1, false, group});
-    p.boolean("automatic", o.automatic,
-              {"Automatic threshold", "A threshold for each level from the noise found in the attribute.", 0, 1, false,
-               group});
-    p.real("strength", o.strength,
-           {"Strength", "Factor for the automatic threshold: 1 removes the noise found.", 0, 100, false, group});
-    p.real(
-        "threshold", o.threshold,
-        {"Threshold value",
-         "If it is not automatic: the length up to which details are dropped, in units of the attribute, for colours "
-         "of 255.",
-         0, 1e30, false, group});
-    p.integer("finest_level", o.finest_level,
-              {"Finest level", "First level that is denoised, 0 is the finest.", 0, 999999999, true, group});
-    p.integer("coarsest_level", o.coarsest_level,
-              {"Coarsest level", "Levels up to, but not with, this one are denoised.", 1, 1000000000, true, group});
+    p.add("rule", Choice(o.rule, {"soft", "hard"}), "Rule",
+          "Soft: details up to the threshold go, all others become shorter by it. Hard: details up to the threshold "
+          "go, the others stay.")
+        .in(group);
+    p.add("automatic", &o.automatic, "Automatic threshold",
+          "A threshold for each level from the noise found in the attribute.")
+        .in(group);
+    p.add("strength", &o.strength, "Strength", "Factor for the automatic threshold: 1 removes the noise found.")
+        .between(0, 100)
+        .in(group);
+    p.add("threshold", &o.threshold, "Threshold value",
+          "If it is not automatic: the length up to which details are dropped, in units of the attribute, for colours "
+          "of 255.")
+        .at_least(0)
+        .in(group);
+    p.add("finest_level", &o.finest_level, "Finest level", "First level that is denoised, 0 is the finest.")
+        .at_least(0)
+        .advanced(group);
+    p.add("coarsest_level", &o.coarsest_level, "Coarsest level", "Levels up to, but not with, this one are denoised.")
+        .at_least(1)
+        .advanced(group);
     bind_region(p, o.region);
     bind_pyramid(p, o.pyramid);
 }
@@ -141,37 +141,24 @@ const Plugin& table() {
     static const Plugin plugin{
         "FilterMultiresDenoise",
         {
-            filter<DenoiseOptions>(
-                {"Multiresolution: Denoise",
-                 "apply_coord_multires_denoise",
-                 std::string("Removes noise and keeps shape, without a parameter to set.<br>") + cite_roy +
-                     "<br>See <i>Sun, Rosin, Martin, Langbein</i>, <b>\"Fast and Effective Feature-Preserving Mesh "
-                     "Denoising\"</b>, IEEE TVCG 2007.<br>See <i>Zheng, Fu, Au, Tai</i>, <b>\"Bilateral Normal "
-                     "Filtering for Mesh Denoising\"</b>, IEEE TVCG 2011.",
-                 MenuClass::smoothing,
-                 faces,
-                 vertex_quality,
-                 vertex_positions,
-                 {},
-                 {},
-                 denoise_returns + change_returns + thresholding_returns},
-                denoise_defaults, bind_denoise, denoise),
-            filter<AttributeDenoiseOptions>(
-                {"Multiresolution: Denoise Attributes",
-                 "apply_attributes_multires_denoise",
-                 std::string("Removes noise from vertex colour, quality or custom attributes by thresholding their "
-                             "details, without a parameter to set; the geometry stays as it is. The report says how "
-                             "much noise was found at each level, the threshold used and the share of details that "
-                             "went.<br>") +
-                     cite_roy,
-                 MenuClass::smoothing,
-                 faces,
-                 vertex_color | vertex_quality | custom_attributes,
-                 vertex_color | vertex_quality | custom_attributes,
-                 {},
-                 {},
-                 attribute_returns + attribute_noise_returns + pyramid_returns},
-                attribute_defaults, bind_attributes, denoise_attributes),
+            filter({"Multiresolution: Denoise", "apply_coord_multires_denoise",
+                    std::string("Removes noise and keeps shape, without a parameter to set.<br>") + cite_roy +
+                        "<br>See <i>Sun, Rosin, Martin, Langbein</i>, <b>\"Fast and Effective Feature-Preserving Mesh "
+                        "Denoising\"</b>, IEEE TVCG 2007.<br>See <i>Zheng, Fu, Au, Tai</i>, <b>\"Bilateral Normal "
+                        "Filtering for Mesh Denoising\"</b>, IEEE TVCG 2011.",
+                    MenuClass::smoothing, faces, vertex_quality, vertex_positions,
+                    denoise_returns + change_returns + thresholding_returns},
+                   denoise_defaults, bind_denoise, denoise),
+            filter({"Multiresolution: Denoise Attributes", "apply_attributes_multires_denoise",
+                    std::string("Removes noise from vertex colour, quality or custom attributes by thresholding their "
+                                "details, without a parameter to set; the geometry stays as it is. The report says how "
+                                "much noise was found at each level, the threshold used and the share of details that "
+                                "went.<br>") +
+                        cite_roy,
+                    MenuClass::smoothing, faces, vertex_color | vertex_quality | custom_attributes,
+                    vertex_color | vertex_quality | custom_attributes,
+                    attribute_returns + attribute_noise_returns + pyramid_returns},
+                   attribute_defaults, bind_attributes, denoise_attributes),
         }};
     return plugin;
 }

@@ -33,36 +33,38 @@ Result run_level(const Layer& layer, const GenerateLevelOptions& options, Sessio
 }
 
 void bind_level(Parameters& p, GenerateLevelOptions& o) {
-    p.integer("level", o.level,
-              {"Level",
-               "0 is the mesh itself; each level has about three quarters of the vertices of the one before. A "
-               "number beyond the last level is an error that names the last.",
-               0, 1000000000});
-    p.boolean("smoothed", o.smoothed,
-              {"Smoothed positions",
-               "Place the vertices where the coarse level of the pyramid has them (presmoothed) instead of where they "
-               "are in the mesh."});
+    p.add("level", &o.level, "Level",
+          "0 is the mesh itself; each level has about three quarters of the vertices of the one before. A "
+          "number beyond the last level is an error that names the last.")
+        .at_least(0)
+        .derived();
+    p.add("smoothed", &o.smoothed, "Smoothed positions",
+          "Place the vertices where the coarse level of the pyramid has them (presmoothed) instead of where they "
+          "are in the mesh.");
     bind_pyramid(p, o.pyramid);
 }
 
-DetailOptions detail_defaults(const Layer* layer) {
-    DetailOptions o;
+struct DetailRow : DetailOptions {
+    GivenLimits given;
+};
+
+DetailRow detail_defaults(const Layer* layer) {
+    DetailRow o;
     o.band.coarsest = 1;
     if (layer) o.band = default_band(*layer, Unit::wavelength);
     return o;
 }
 
-void bind_detail(Parameters& p, DetailOptions& o) {
-    bind_band(p, o.band);
-    p.boolean("signed_normal", o.signed_normal,
-              {"Signed, along the normal",
-               "Store the part of the detail along the vertex normal, positive outwards, instead of its length."});
+void bind_detail(Parameters& p, DetailRow& o) {
+    bind_band(p, o.band, o.given);
+    p.add("signed_normal", &o.signed_normal, "Signed, along the normal",
+          "Store the part of the detail along the vertex normal, positive outwards, instead of its length.");
     bind_pyramid(p, o.pyramid);
 }
 
-Result run_detail(const Layer& layer, const DetailOptions& options, Session& session) {
-    DetailOptions o = options;
-    o.band = in_own_unit(layer, o.band);
+Result run_detail(const Layer& layer, const DetailRow& row, Session& session) {
+    DetailOptions o = row;
+    o.band = with_derived_limits(layer, o.band, row.given);
     return detail_quality(layer, o, session);
 }
 
@@ -103,53 +105,31 @@ const Plugin& table() {
     static const Plugin plugin{
         "FilterMultiresPyramid",
         {
-            filter<ComputePyramidOptions>(
-                {"Multiresolution: Build Pyramid",
-                 "compute_multires_pyramid",
+            filter(
+                {"Multiresolution: Build Pyramid", "compute_multires_pyramid",
                  std::string("Builds a pyramid of levels of resolution and keeps it with the mesh, so that the other "
                              "multiresolution filters answer at once while the mesh stays the same. The mesh is not "
                              "changed. Returned for each level: number of vertices, wavelength (twice the mean edge "
                              "length) and root mean square of the details; the largest error of the reconstruction; "
                              "and what is unusual in the mesh.<br>") +
                      cite_guskov + cite_roy,
-                 MenuClass::measure,
-                 faces,
-                 none,
-                 none,
-                 {},
-                 {},
-                 compute_returns + pyramid_returns},
+                 MenuClass::measure, faces, none, none, compute_returns + pyramid_returns},
                 compute_defaults, bind_compute, compute_pyramid),
-            filter<GenerateLevelOptions>(
-                {"Multiresolution: Level as New Layer",
-                 "generate_multires_level",
-                 std::string(
-                     "Makes a new layer with the mesh of one level of the pyramid: a subset of the vertices with "
-                     "all their attributes. The custom vertex attribute <i>source_vertex</i> holds the index of "
-                     "each in the input.<br>") +
-                     cite_roy,
-                 MenuClass::layer,
-                 faces,
-                 none,
-                 new_layer,
-                 {},
-                 {},
-                 level_returns + pyramid_returns},
-                level_defaults, bind_level, run_level),
-            filter<DetailOptions>(
-                {"Multiresolution: Detail to Vertex Quality",
-                 "compute_scalar_multires_detail_per_vertex",
+            filter({"Multiresolution: Level as New Layer", "generate_multires_level",
+                    std::string(
+                        "Makes a new layer with the mesh of one level of the pyramid: a subset of the vertices with "
+                        "all their attributes. The custom vertex attribute <i>source_vertex</i> holds the index of "
+                        "each in the input.<br>") +
+                        cite_roy,
+                    MenuClass::layer, faces, none, new_layer, level_returns + pyramid_returns},
+                   level_defaults, bind_level, run_level),
+            filter(
+                {"Multiresolution: Detail to Vertex Quality", "compute_scalar_multires_detail_per_vertex",
                  std::string("Stores in the vertex quality how much a band of scales adds to the shape at each vertex: "
                              "the distance to where the vertex would be without the band, or its signed part along the "
                              "normal, in mesh units.<br>") +
                      cite_guskov,
-                 MenuClass::quality,
-                 faces,
-                 none,
-                 vertex_quality,
-                 {},
-                 {},
-                 detail_returns + gains_returns + pyramid_returns},
+                 MenuClass::quality, faces, none, vertex_quality, detail_returns + gains_returns + pyramid_returns},
                 detail_defaults, bind_detail, run_detail),
         }};
     return plugin;

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <iomanip>
+#include <map>
 #include <new>
 #include <sstream>
 #include <utility>
@@ -34,6 +35,30 @@ MeshModel& current_mesh(const Filter& filter, MeshDocument& document) {
     needs(plugin::wedge_texcoord, MeshModel::MM_WEDGTEXCOORD, "The current mesh has no wedge texture coordinates.");
     return *model;
 }
+
+/// The layers that a call names, read once each; the current one is there already.
+class OtherLayers {
+public:
+    OtherLayers(const std::vector<const MeshModel*>& models, const MeshModel& current, const VcgLayer& flat) {
+        for (const MeshModel* model : models) {
+            if (model != &current && read_.count(model) == 0) read_.emplace(model, read_other(*model));
+            layers_.push_back(model == &current ? &flat.layer : &read_.at(model).layer);
+        }
+    }
+    const std::vector<const Layer*>& layers() const { return layers_; }
+
+private:
+    static VcgLayer read_other(const MeshModel& model) {
+        try {
+            return read_layer(model);
+        } catch (const InputError& e) {
+            throw InputError("Layer \"" + model.label().toStdString() + "\": " + e.what());
+        }
+    }
+
+    std::map<const MeshModel*, VcgLayer> read_;
+    std::vector<const Layer*> layers_;
+};
 
 /// Passes progress on when the percentage changes, and at least every tenth of a second: a host redraws each time.
 Progress progress_of(vcg::CallBackPos* callback) {
@@ -128,12 +153,12 @@ int postcondition(const Filter& filter) {
 
 RichParameterList parameters(const Filter& filter, const MeshDocument& document) {
     const MeshModel* model = document.mm();
-    if (!model || model->cm.vn == 0) return declare_parameters(filter, nullptr);
+    if (!model || model->cm.vn == 0) return declare_parameters(filter, nullptr, document);
     try {
         const VcgLayer flat = read_layer(filter, *model);
-        return declare_parameters(filter, &flat.layer);
+        return declare_parameters(filter, &flat.layer, document);
     } catch (const std::exception&) {  // told when the filter runs
-        return declare_parameters(filter, nullptr);
+        return declare_parameters(filter, nullptr, document);
     }
 }
 
@@ -149,8 +174,9 @@ void apply(const Filter& filter, const RichParameterList& list, MeshDocument& do
     const Kept before = kept(model.cm);
     session.pyramid = before.pyramid;
     session.original = before.original;
-    ParameterReader reader(list);
-    Result result = filter.run(reader, flat.layer, session);
+    const plugin::Call call = filter.call(&flat.layer);
+    const OtherLayers others(read_parameters(list, call.parameters, document), model, flat);
+    Result result = call.run({flat.layer, others.layers()}, session);
 
     Kept after{session.pyramid, session.original};
     if (result.positions) {

@@ -106,6 +106,13 @@ LayerChanges changes_of(const Result& result) {
     return changes;
 }
 
+VcgLayer placed_layer(const MeshModel& model, const AttributeRequest& request) {
+    VcgLayer flat = to_layer(model.cm, request);
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) flat.layer.to_world(i, j) = model.cm.Tr[i][j];
+    return flat;
+}
+
 }  // namespace
 
 VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model) {
@@ -115,8 +122,10 @@ VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model) {
     request.texcoord = filter.reads & plugin::vertex_texcoord && model.hasDataMask(MeshModel::MM_VERTTEXCOORD);
     request.wedges = filter.reads & plugin::wedge_texcoord && model.hasDataMask(MeshModel::MM_WEDGTEXCOORD);
     if (filter.reads & plugin::custom_attributes) request.custom = custom_attribute_names(model.cm);
-    return to_layer(model.cm, request);
+    return placed_layer(model, request);
 }
+
+VcgLayer read_layer(const MeshModel& model) { return placed_layer(model, {}); }
 
 struct PendingResult::Parts {
     Parts(MeshDocument& document, MeshModel& to, const VcgLayer& from, Result what, Kept to_keep)

@@ -1,42 +1,73 @@
 #include "host/parameters.h"
 
+#include <QApplication>
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace multires::host {
 namespace {
 
-using plugin::Hint;
+using namespace plugin;
 
-class Declarer final : public plugin::Parameters {
+Scalarm finite(double value) {
+    if (!std::isfinite(static_cast<Scalarm>(value))) throw InputError("no default for this mesh");
+    return static_cast<Scalarm>(value);
+}
+
+Point3m host_point(const Vec3& p) { return {finite(p.x()), finite(p.y()), finite(p.z())}; }
+
+/// Programs without dialogs have no use for sliders, and pymeshlab moves values beyond their ends there in silence.
+bool shows_sliders() { return qobject_cast<QApplication*>(QCoreApplication::instance()) != nullptr; }
+
+/// Fills the host's list.
+class Declarer {
 public:
-    void boolean(const char* name, bool& value, const Hint& hint) override { add<RichBool>(name, hint, value); }
-    void integer(const char* name, int& value, const Hint& hint) override { add<RichInt>(name, hint, value); }
-    void real(const char* name, double& value, const Hint& hint) override { add<RichFloat>(name, hint, finite(value)); }
-    void slider(const char* name, double& value, const Hint& hint) override {
-        add<RichDynamicFloat>(name, hint, finite(value), finite(hint.least), finite(hint.most));
-    }
-    void choice(const char* name, int& value, const std::vector<std::string>& names, const Hint& hint) override {
-        QStringList list;
-        for (const std::string& n : names) list << QString::fromStdString(n);
-        add<RichEnum>(name, hint, value, list);
-    }
-    void text(const char* name, std::string& value, const Hint& hint) override {
-        add<RichString>(name, hint, QString::fromStdString(value));
+    explicit Declarer(const MeshDocument& document) : document_(document) {}
+
+    void add(const Parameter& p) {
+        std::visit(Overloaded{
+                       [&](const bool* value) { add<RichBool>(p, *value); },
+                       [&](const int* value) { add<RichInt>(p, *value); },
+                       [&](const double* value) { add_real(p, *value); },
+                       [&](const std::string* value) { add<RichString>(p, QString::fromStdString(*value)); },
+                       [&](const Choice& choice) { add_choice(p, choice); },
+                       [&](const Angle& angle) { add<RichFloat>(p, finite(*angle.degrees)); },
+                       [&](const Point& point) { add<RichPoint>(p, host_point(*point.at)); },
+                       [&](const Direction& direction) { add<RichVector>(p, host_point(*direction.unit)); },
+                       [&](const LayerRef*) { add_layer(p); },
+                   },
+                   p.field);
     }
 
     RichParameterList list;
 
 private:
-    static Scalarm finite(double value) {
-        if (!std::isfinite(static_cast<Scalarm>(value))) throw InputError("no default for this mesh");
-        return static_cast<Scalarm>(value);
+    template <class Rich, class... Value>
+    void add(const Parameter& p, const Value&... value) {
+        list.addParam(make_parameter<Rich>(QString::fromStdString(p.name), arranged(p.hint), value...));
     }
 
-    template <class Rich, class... Value>
-    void add(const char* name, const Hint& hint, const Value&... value) {
-        list.addParam(make_parameter<Rich>(QString(name), arranged(hint), value...));
+    void add_real(const Parameter& p, double value) {
+        if (p.hint.slider && shows_sliders())
+            add<RichDynamicFloat>(p, finite(value), finite(p.hint.range->least), finite(p.hint.range->most));
+        else
+            add<RichFloat>(p, finite(value));
+    }
+
+    void add_choice(const Parameter& p, const Choice& choice) {
+        QStringList names;
+        for (const std::string& n : choice.names) names << QString::fromStdString(n);
+        add<RichEnum>(p, choice.value(), names);
+    }
+
+    void add_layer(const Parameter& p) {
+        const MeshModel* other = document_.mm();
+        bool found = false;
+        for_each_mesh(document_, [&](const MeshModel& model) {
+            if (!found && &model != document_.mm()) other = &model, found = true;
+        });
+        list.addParam(make_layer_parameter(QString::fromStdString(p.name), arranged(p.hint), other, document_));
     }
 
     /// As the dialogs of hosts need it. 2020.09 lists all parameters one below the other, without headings or folding.
@@ -57,82 +88,83 @@ private:
         return hint;
     }
 
+    const MeshDocument& document_;
     std::vector<std::string> groups_;  ///< in order of appearance
 };
 
-RichParameterList declare(const plugin::Filter& filter, const Layer* layer) {
-    Declarer declarer;
-    filter.parameters(declarer, layer);
+RichParameterList declare(const Filter& filter, const Layer* layer, const MeshDocument& document) {
+    const Call call = filter.call(layer);
+    Declarer declarer(document);
+    for (const Parameter& p : call.parameters) declarer.add(p);
     return declarer.list;
 }
 
-[[noreturn]] void refuse(const char* name, const Hint& hint, double value) {
-    std::ostringstream message;
-    message << "Parameter \"" << name << "\" (" << hint.label << ") is " << value << "; it must be ";
-    const bool below = hint.least > -1e300, above = hint.most < 1e300;
-    if (below && above)
-        message << "between " << hint.least << " and " << hint.most << ".";
-    else if (below)
-        message << "at least " << hint.least << ".";
-    else if (above)
-        message << "at most " << hint.most << ".";
-    else
-        message << "a finite number.";
-    throw InputError(message.str());
-}
+/// Reads the host's list, parameter by parameter.
+class Reader {
+public:
+    Reader(const RichParameterList& list, const MeshDocument& document) : list_(list), document_(document) {}
 
-/// `given` if it is in range. Hosts pass reals in single precision: a value that differs from `current` only by that
-/// is `current`, and one that leaves the range only by that is the end of the range.
-double checked_real(const char* name, double current, double given, const Hint& hint) {
-    if (!std::isfinite(given)) refuse(name, hint, given);
-    if (static_cast<float>(given) == static_cast<float>(current)) return current;
-    const double slack = 1e-6 * std::abs(given);
-    if (given < hint.least - slack || given > hint.most + slack) refuse(name, hint, given);
-    return std::clamp(given, hint.least, hint.most);
-}
+    void read(const Parameter& p) {
+        name_ = QString::fromStdString(p.name);
+        if (!list_.hasParameter(name_)) return;
+        bool* const given = p.given;
+        std::visit(Overloaded{
+                       [&](bool*) { set(p, list_.getBool(name_)); },
+                       [&](int*) { set(p, list_.getInt(name_)); },
+                       [&](const double* value) { read_real(p, *value, p.hint.slider && shows_sliders()); },
+                       [&](std::string*) { set(p, list_.getString(name_).toStdString()); },
+                       [&](const Choice&) { set(p, list_.getEnum(name_)); },
+                       [&](const Angle& angle) { read_real(p, *angle.degrees, false); },
+                       [&](const Point&) { set(p, vector()); },
+                       [&](const Direction&) { set(p, vector()); },
+                       [&](LayerRef* ref) { read_layer(p, *ref); },
+                   },
+                   p.field);
+        if (given && is_default(list_.getParameterByName(name_), 0)) *given = false;
+    }
+
+    std::vector<const MeshModel*> layers;
+
+private:
+    void read_real(const Parameter& p, double current, bool slider) {
+        const double value = slider ? list_.getDynamicFloat(name_) : list_.getFloat(name_);
+        set(p, static_cast<float>(value) == static_cast<float>(current) ? current : value);
+    }
+
+    Vec3 vector() const {
+        const Point3m v = read_point(list_, name_);
+        return {v[0], v[1], v[2]};
+    }
+
+    void read_layer(const Parameter& p, LayerRef& ref) {
+        const MeshModel* model = find_layer(list_, name_, document_);
+        if (!model)
+            throw InputError("Parameter \"" + p.name + "\" (" + p.hint.label + "): there is no layer " +
+                             layer_text(list_, name_) + ".");
+        ref.place = layers.size();
+        layers.push_back(model);
+    }
+
+    const RichParameterList& list_;
+    const MeshDocument& document_;
+    QString name_;
+};
 
 }  // namespace
 
-RichParameterList declare_parameters(const plugin::Filter& filter, const Layer* layer) {
+RichParameterList declare_parameters(const Filter& filter, const Layer* layer, const MeshDocument& document) {
     if (layer) try {
-            return declare(filter, layer);
+            return declare(filter, layer, document);
         } catch (const std::exception&) {  // see the header
         }
-    return declare(filter, nullptr);
+    return declare(filter, nullptr, document);
 }
 
-void ParameterReader::boolean(const char* name, bool& value, const Hint& /*hint*/) {
-    if (list_.hasParameter(name)) value = list_.getBool(name);
-}
-
-void ParameterReader::integer(const char* name, int& value, const Hint& hint) {
-    if (!list_.hasParameter(name)) return;
-    const int given = list_.getInt(name);
-    if (given < hint.least || given > hint.most) refuse(name, hint, given);
-    value = given;
-}
-
-void ParameterReader::real(const char* name, double& value, const Hint& hint) {
-    if (list_.hasParameter(name)) value = checked_real(name, value, list_.getFloat(name), hint);
-}
-
-void ParameterReader::slider(const char* name, double& value, const Hint& hint) {
-    if (list_.hasParameter(name)) value = checked_real(name, value, list_.getDynamicFloat(name), hint);
-}
-
-void ParameterReader::choice(const char* name, int& value, const std::vector<std::string>& names, const Hint& hint) {
-    if (!list_.hasParameter(name)) return;
-    const int given = list_.getEnum(name);
-    if (given < 0 || given >= static_cast<int>(names.size())) {
-        Hint range = hint;
-        range.least = 0, range.most = static_cast<double>(names.size()) - 1;
-        refuse(name, range, given);
-    }
-    value = given;
-}
-
-void ParameterReader::text(const char* name, std::string& value, const Hint& /*hint*/) {
-    if (list_.hasParameter(name)) value = list_.getString(name).toStdString();
+std::vector<const MeshModel*> read_parameters(const RichParameterList& list, const Parameters& parameters,
+                                              const MeshDocument& document) {
+    Reader reader(list, document);
+    for (const Parameter& p : parameters) reader.read(p);
+    return std::move(reader.layers);
 }
 
 }  // namespace multires::host

@@ -6,26 +6,16 @@ namespace multires::host {
 
 /// The parameters of `filter` as the host shows them, with defaults for `layer` (null: no mesh).
 /// Where the defaults cannot be derived from the layer (it is bad input, say), the fixed ones are given: what is wrong
-/// with the mesh is told when the filter runs, not when its dialog opens.
-RichParameterList declare_parameters(const plugin::Filter& filter, const Layer* layer);
+/// with the mesh is told when the filter runs, not when its dialog opens. The default of a LayerRef is the first layer
+/// of the document that is not the current one.
+RichParameterList declare_parameters(const plugin::Filter& filter, const Layer* layer, const MeshDocument& document);
 
-/// Reads parameters back from the host's list. A parameter that the list lacks keeps its default, as does one that
-/// the host only rounded to its own precision.
-/// Every visit throws InputError naming the parameter for NaN, infinity, or a value outside the hint's range.
-class ParameterReader final : public plugin::Parameters {
-public:
-    using Parameters::choice;
-
-    explicit ParameterReader(const RichParameterList& list) : list_(list) {}
-    void boolean(const char* name, bool& value, const plugin::Hint& hint) override;
-    void integer(const char* name, int& value, const plugin::Hint& hint) override;
-    void real(const char* name, double& value, const plugin::Hint& hint) override;
-    void slider(const char* name, double& value, const plugin::Hint& hint) override;
-    void choice(const char* name, int& value, const std::vector<std::string>& names, const plugin::Hint& hint) override;
-    void text(const char* name, std::string& value, const plugin::Hint& hint) override;
-
-private:
-    const RichParameterList& list_;
-};
+/// Writes what the host's list holds to the fields of the parameters. A parameter that the list lacks keeps its
+/// default, as does one that the host only rounded to its own precision.
+/// @return the models that the LayerRefs name, in order: LayerRef::place is the index. None is null; several may be
+///         the same one.
+/// @throws InputError  naming the parameter: see plugin::set; or there is no such layer
+std::vector<const MeshModel*> read_parameters(const RichParameterList& list, const plugin::Parameters& parameters,
+                                              const MeshDocument& document);
 
 }  // namespace multires::host

@@ -10,31 +10,29 @@ namespace multires::plugin {
 inline const char* const attribute_group = "Attributes";
 
 inline void bind_linear_light(Parameters& p, bool& linear_light) {
-    p.boolean("linear_light", linear_light,
-              {"Colours as light",
-               "Decode colours (sRGB) to amounts of light before computing with them, and encode the result. Right for "
-               "photographs; off, colours are computed with as they are stored, right for colour scales.",
-               0, 1, true, attribute_group});
+    p.add("linear_light", &linear_light, "Colours as light",
+          "Decode colours (sRGB) to amounts of light before computing with them, and encode the result. Right for "
+          "photographs; off, colours are computed with as they are stored, right for colour scales.")
+        .advanced(attribute_group);
 }
 
 inline void bind_color_and_quality(Parameters& p, AttributeChoice& what) {
-    p.boolean("color", what.color, {"Vertex colour", "With alpha.", 0, 1, false, attribute_group});
-    p.boolean("quality", what.quality,
-              {"Vertex quality", "The scalar value of the vertices.", 0, 1, false, attribute_group});
+    p.add("color", &what.color, "Vertex colour", "With alpha.").in(attribute_group).derived();
+    p.add("quality", &what.quality, "Vertex quality", "The scalar value of the vertices.")
+        .in(attribute_group)
+        .derived();
 }
 
-inline const Hint custom_names_hint{"Names of custom attributes",
-                                    "Which custom attributes: their names, separated by commas. Empty: all, but for "
-                                    "source_vertex.",
-                                    0,
-                                    1,
-                                    false,
-                                    attribute_group};
+/// To be followed by bind_custom_names.
+inline Parameter& bind_custom(Parameters& p, AttributeChoice& what) {
+    return p.add("custom", &what.custom, "Custom attributes", "Custom scalars and points of the vertices.")
+        .in(attribute_group);
+}
 
-inline void bind_custom(Parameters& p, AttributeChoice& what) {
-    p.boolean("custom", what.custom,
-              {"Custom attributes", "Custom scalars and points of the vertices.", 0, 1, false, attribute_group});
-    p.text("custom_names", what.custom_names, custom_names_hint);
+inline void bind_custom_names(Parameters& p, AttributeChoice& what) {
+    p.add("custom_names", &what.custom_names, "Names of custom attributes",
+          "Which custom attributes: their names, separated by commas. Empty: all, but for source_vertex.")
+        .in(attribute_group);
 }
 
 }  // namespace multires::plugin

@@ -1,48 +1,19 @@
 #pragma once
 
+#include "shared/parameters.h"
+
 #include "filters/filter.h"
 #include "filters/result_hash.h"
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 /// The tables that declare filters. A filter is one row: its names, its info, what it needs and changes, its
 /// parameters bound to the fields of an options struct, and its function. No host header is needed to write one.
 namespace multires::plugin {
-
-/// Text and range of one parameter.
-struct Hint {
-    std::string label;
-    std::string tooltip;    ///< what a value does, and in which unit
-    double least = -1e300;  ///< smallest and largest sensible value, inclusive
-    double most = 1e300;
-    bool advanced = false;   ///< folded away in the dialog where the host can
-    std::string group = "";  ///< heading in the dialog where the host has headings
-};
-
-/// Visits the parameters of a filter: one call a parameter, used both to declare it (the default is the value found
-/// in the field) and to read it back (the field is overwritten).
-class Parameters {
-public:
-    virtual ~Parameters() = default;
-    virtual void boolean(const char* name, bool& value, const Hint& hint) = 0;
-    virtual void integer(const char* name, int& value, const Hint& hint) = 0;
-    virtual void real(const char* name, double& value, const Hint& hint) = 0;
-    /// A real with a slider between hint.least and hint.most, live in hosts that preview.
-    virtual void slider(const char* name, double& value, const Hint& hint) = 0;
-    virtual void choice(const char* name, int& value, const std::vector<std::string>& names, const Hint& hint) = 0;
-    virtual void text(const char* name, std::string& value, const Hint& hint) = 0;
-
-    /// A choice bound to an enum whose values are 0, 1, ... in the order of the names.
-    template <class Enum>
-    void choice(const char* name, Enum& value, const std::vector<std::string>& names, const Hint& hint) {
-        int i = static_cast<int>(value);
-        choice(name, i, names, hint);
-        value = static_cast<Enum>(i);
-    }
-};
 
 /// Sets of mesh parts, for preconditions and postconditions.
 enum Parts : std::uint32_t {
@@ -70,40 +41,49 @@ struct Returned {
     bool always = true;  ///< false: only with some parameters or meshes
 };
 
+/// One call of a filter, before it runs: the parameters point into its options, which it holds.
+struct Call {
+    Parameters parameters;
+    std::function<Result(const Inputs&, Session&)> run;  ///< with the values that are then in the fields
+};
+
 /// One filter.
 struct Filter {
     std::string name;         ///< "Multiresolution: Low Pass", as in the menu
     std::string python_name;  ///< "apply_coord_multires_low_pass"
     std::string info;         ///< HTML, ends with the citation
     MenuClass menu_class;
-    std::uint32_t needs;    ///< Parts the mesh must have
-    std::uint32_t reads;    ///< attributes to be put into the Layer (vertex_quality, vertex_color, ...)
-    std::uint32_t changes;  ///< Parts the filter may change
-
-    /// Declares or reads the parameters; the defaults are derived from the layer (null: no mesh, use fixed ones).
-    std::function<void(Parameters&, const Layer*)> parameters;
-    /// Runs the filter with the parameters read from the host.
-    std::function<Result(Parameters&, const Layer&, Session&)> run;
-
+    std::uint32_t needs;                 ///< Parts the mesh must have
+    std::uint32_t reads;                 ///< attributes to be put into the Layer (vertex_quality, vertex_color, ...)
+    std::uint32_t changes;               ///< Parts the filter may change
     std::vector<Returned> returns = {};  ///< what the report holds
+
+    /// Begins a call; defaults are derived from the layer (null: there is no mesh, fixed ones). Made by filter() below.
+    std::function<Call(const Layer*)> call = nullptr;
 };
 
-/// Makes a row from an options struct: `defaults` derives it from a layer, `bind` visits its fields, `apply` does it.
+/// Completes a row: `defaults` derives an options struct from a layer, `bind` lists its fields as parameters, `apply`
+/// does it: Result apply(layer, options, session), where layer is a Layer, or Inputs for a filter of several layers.
 /// The report of a filter that changes anything ends with a hash of what.
-template <class Options>
+template <class Options, class Given>
 Filter filter(Filter row, Options (*defaults)(const Layer*), void (*bind)(Parameters&, Options&),
-              Result (*apply)(const Layer&, const Options&, Session&)) {
+              Result (*apply)(const Given&, const Options&, Session&)) {
     const bool changes = row.changes != none;
-    row.parameters = [=](Parameters& p, const Layer* layer) {
-        Options o = defaults(layer);
-        bind(p, o);
-    };
-    row.run = [=](Parameters& p, const Layer& layer, Session& session) {
-        Options o = defaults(&layer);
-        bind(p, o);
-        Result result = apply(layer, o, session);
-        if (changes) result.report.add("result_hash", result_hash(result));
-        return result;
+    row.call = [=](const Layer* layer) {
+        const auto options = std::make_shared<Options>(defaults(layer));
+        Call call;
+        bind(call.parameters, *options);
+        call.run = [=](const Inputs& inputs, Session& session) {
+            Result result = [&] {
+                if constexpr (std::is_same_v<Given, Inputs>)
+                    return apply(inputs, *options, session);
+                else
+                    return apply(inputs.current, *options, session);
+            }();
+            if (changes) result.report.add("result_hash", result_hash(result));
+            return result;
+        };
+        return call;
     };
     if (changes)
         row.returns.push_back({"result_hash", Returned::Type::real, "",

@@ -39,10 +39,9 @@ Layer small_layer() {
 
 std::vector<double> run(const Filter& filter, const Layer& layer, const std::map<std::string, double>& values,
                         const Progress& progress = Progress()) {
-    Given given(values);
     Session session;
     session.progress = progress;
-    return fixtures::numbers(filter.run(given, layer, session));
+    return fixtures::numbers(plugin::run(filter, layer, session, values));
 }
 
 class FilterFaults : public testing::TestWithParam<const Filter*> {
@@ -57,11 +56,10 @@ protected:
             bool refused = false;
             std::vector<double> result;
             {
-                Given given(variant.values);
                 Session session;
                 faults::fail_at(i, shortage);
                 try {
-                    const Result r = filter().run(given, layer, session);
+                    const Result r = plugin::run(filter(), layer, session, variant.values);
                     faults::stop();
                     result = fixtures::numbers(r);
                 } catch (const std::bad_alloc&) {
@@ -124,18 +122,16 @@ TEST_P(FilterFaults, NoMemoryInAnyThreadIsAnErrorAndTheThreadsGoOn) {
     const std::vector<double> expected = run(filter(), large, values);
     long made = 0;
     {
-        Given given;
         Session session;
         faults::count();
-        filter().run(given, large, session);
+        plugin::run(filter(), large, session);
         made = faults::stop();
     }
     for (int i = 0; i < 12; ++i) {
-        Given given;
         Session session;
         faults::fail_at(made * i / 12 + i);
         try {
-            filter().run(given, large, session);
+            plugin::run(filter(), large, session);
         } catch (const std::bad_alloc&) {
         }
         faults::stop();

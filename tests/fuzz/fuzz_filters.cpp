@@ -90,7 +90,7 @@ Given parameters(const Filter& filter, const Layer& layer, Bytes& in) {
     std::map<std::string, double> values;
     for (const Declared& d : declared(filter, &layer))
         if (in.byte() & 1) values[d.name] = value_of(d, in);
-    return Given(std::move(values));
+    return values;
 }
 
 void check(const Layer& layer, const Result& r) {
@@ -120,10 +120,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     // The mesh last, so that longer inputs are larger meshes.
     fuzz::Bytes rest(data + std::min<std::size_t>(size, 64), size - std::min<std::size_t>(size, 64));
     const Layer layer = fuzz::layer_from(rest);
-    plugin::Given given = fuzz::parameters(filter, layer, in);
+    const plugin::Given given = fuzz::parameters(filter, layer, in);
     Session session;
     try {
-        fuzz::check(layer, filter.run(given, layer, session));
+        fuzz::check(layer, run(filter, layer, session, given));
         ++fuzz::worked;
     } catch (const InputError&) {
     }

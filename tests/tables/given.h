@@ -2,93 +2,103 @@
 
 #include "shared/table.h"
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+/// Filters without a host: parameters by name, as numbers.
 namespace multires::plugin {
 
-/// Reads parameters from a list of values by name, refusing what hosts refuse; those not in the list keep their
-/// defaults. Numbers stand for booleans and choices too.
-class Given final : public Parameters {
-public:
-    using Parameters::choice;
+/// Values by name of the parameter. Numbers stand for booleans and the places of choices, too; what is not in the list
+/// keeps its default.
+using Given = std::map<std::string, double>;
 
-    Given() = default;
-    explicit Given(std::map<std::string, double> values) : values_(std::move(values)) {}
+/// Writes values to the fields, refusing what hosts refuse. Texts, points, directions and layers keep their defaults.
+/// @throws InputError
+inline void read(const Parameters& parameters, const Given& given) {
+    for (const Parameter& p : parameters) {
+        const auto at = given.find(p.name);
+        if (at == given.end()) continue;
+        const double value = at->second;
+        const auto whole = [&](const auto&) {
+            if (!(std::abs(value) <= 2147483647))
+                throw InputError(p.name + " is not a whole number");  // hosts hold an int
+            set(p, static_cast<int>(value));
+        };
+        std::visit(Overloaded{
+                       [&](bool*) { set(p, value != 0); },
+                       [&](int* field) { whole(field); },
+                       [&](const Choice& field) { whole(field); },
+                       [&](double*) { set(p, value); },
+                       [&](const Angle&) { set(p, value); },
+                       [](const auto&) {},
+                   },
+                   p.field);
+    }
+}
 
-    void boolean(const char* name, bool& value, const Hint&) override {
-        if (const double* v = find(name)) value = *v != 0;
-    }
-    void integer(const char* name, int& value, const Hint& hint) override {
-        // Hosts hold an int.
-        Hint range = hint;
-        range.least = std::max<double>(hint.least, std::numeric_limits<int>::min());
-        range.most = std::min<double>(hint.most, std::numeric_limits<int>::max());
-        if (const double* v = checked(name, range)) value = static_cast<int>(*v);
-    }
-    void real(const char* name, double& value, const Hint& hint) override {
-        if (const double* v = checked(name, hint)) value = *v;
-    }
-    void slider(const char* name, double& value, const Hint& hint) override { real(name, value, hint); }
-    void choice(const char* name, int& value, const std::vector<std::string>& names, const Hint&) override {
-        Hint range;
-        range.least = 0, range.most = static_cast<double>(names.size()) - 1;
-        if (const double* v = checked(name, range)) value = static_cast<int>(*v);
-    }
-    void text(const char*, std::string&, const Hint&) override {}
+/// What stands for another layer of the document where a filter wants one: the mesh itself, swollen about its centroid.
+inline Layer another_layer(const Layer& layer) {
+    Layer other;
+    other.mesh = layer.mesh;
+    Vec3 centroid = Vec3::Zero();
+    for (const Vec3& p : layer.mesh.positions) centroid += p / static_cast<double>(layer.mesh.positions.size());
+    for (Vec3& p : other.mesh.positions) p = centroid + 1.01 * (p - centroid);
+    return other;
+}
 
-private:
-    const double* find(const char* name) const {
-        const auto at = values_.find(name);
-        return at == values_.end() ? nullptr : &at->second;
-    }
-    const double* checked(const char* name, const Hint& hint) const {
-        const double* v = find(name);
-        if (v && !(std::isfinite(*v) && *v >= hint.least && *v <= hint.most))
-            throw InputError(std::string("Parameter \"") + name + "\" is out of range.");
-        return v;
-    }
+/// Runs a filter on a layer, and on another_layer if it wants one.
+inline Result run(const Filter& filter, const Layer& layer, Session& session, const Given& given = {}) {
+    const Call call = filter.call(&layer);
+    read(call.parameters, given);
+    Layer other;
+    Inputs inputs{layer};
+    for (const Parameter& p : call.parameters)
+        if (auto* const* ref = std::get_if<LayerRef*>(&p.field)) {
+            if (inputs.others.empty()) other = another_layer(layer);
+            (*ref)->place = inputs.others.size();
+            inputs.others.push_back(&other);
+        }
+    return call.run(inputs, session);
+}
 
-    std::map<std::string, double> values_;
-};
-
-/// One parameter of a filter, as declared for a layer.
+/// One parameter of a filter that takes a number, or a text, as declared for a layer.
 struct Declared {
     enum class Type { boolean, integer, real, choice, text } type;
     std::string name;
-    double value, least, most;
+    double value, least, most;  ///< 1e300 where there is no limit
 };
 
-/// All parameters of a filter.
+/// All such parameters of a filter.
 inline std::vector<Declared> declared(const Filter& filter, const Layer* layer) {
-    class Lister final : public Parameters {
-    public:
-        void boolean(const char* name, bool& value, const Hint&) override {
-            list.push_back({Declared::Type::boolean, name, value ? 1.0 : 0.0, 0, 1});
-        }
-        void integer(const char* name, int& value, const Hint& hint) override {
-            list.push_back({Declared::Type::integer, name, static_cast<double>(value), hint.least, hint.most});
-        }
-        void real(const char* name, double& value, const Hint& hint) override {
-            list.push_back({Declared::Type::real, name, value, hint.least, hint.most});
-        }
-        void slider(const char* name, double& value, const Hint& hint) override { real(name, value, hint); }
-        void choice(const char* name, int& value, const std::vector<std::string>& names, const Hint&) override {
-            const double last = static_cast<double>(names.size()) - 1;
-            list.push_back({Declared::Type::choice, name, static_cast<double>(value), 0, last});
-        }
-        void text(const char* name, std::string&, const Hint&) override {
-            list.push_back({Declared::Type::text, name, 0, 0, 0});
-        }
-        std::vector<Declared> list;
-    };
-    Lister lister;
-    filter.parameters(lister, layer);
-    return std::move(lister.list);
+    std::vector<Declared> list;
+    const Call call = filter.call(layer);
+    for (const Parameter& p : call.parameters) {
+        const Range range = p.hint.range.value_or(Range());
+        const auto add = [&](Declared::Type type, double value, Range r) {
+            list.push_back({type, p.name, value, std::max(r.least, -1e300), std::min(r.most, 1e300)});
+        };
+        std::visit(Overloaded{
+                       [&](bool* v) {
+                           add(Declared::Type::boolean, *v ? 1 : 0, {0, 1});
+                       },
+                       [&](int* v) { add(Declared::Type::integer, *v, range); },
+                       [&](double* v) { add(Declared::Type::real, *v, range); },
+                       [&](const Angle& v) { add(Declared::Type::real, *v.degrees, range); },
+                       [&](const Choice& v) {
+                           add(Declared::Type::choice, v.value(), {0, static_cast<double>(v.names.size()) - 1});
+                       },
+                       [&](const std::string*) {
+                           add(Declared::Type::text, 0, {0, 0});
+                       },
+                       [](const auto&) {},  // points, directions, layers: tests of their own
+                   },
+                   p.field);
+    }
+    return list;
 }
 
 }  // namespace multires::plugin

@@ -1,14 +1,15 @@
 #include "all_tables.h"
 #include "shapes.h"
 
+#include <cmath>
 #include <iostream>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
 // Prints all filters, their parameters and what they return as JSON, for tests of the hosts and tools/generate.py. The
-// defaults are those for the mesh that make_meshes writes to irregular_sphere.ply; "derived" marks those that other
-// meshes (none, one with a selection and a quality) have another value for.
+// defaults are those for the mesh that make_meshes writes to irregular_sphere.ply; "derived" marks those that are
+// derived from the mesh.
 
 using namespace multires::plugin;
 
@@ -26,90 +27,60 @@ std::string quoted(const std::string& text) {
     return out + '"';
 }
 
-class Printer final : public Parameters {
-public:
-    /// defaults_elsewhere: what Values found in other layers, in the order of the parameters.
-    explicit Printer(std::vector<std::vector<std::string>> defaults_elsewhere)
-        : others_(std::move(defaults_elsewhere)) {}
+std::string number(double value) {
+    std::ostringstream out;
+    out.precision(9);
+    out << value;
+    return out.str();
+}
 
-    void boolean(const char* name, bool& value, const Hint& hint) override {
-        print(name, "boolean", value ? "true" : "false", hint);
-    }
-    void integer(const char* name, int& value, const Hint& hint) override {
-        print(name, "integer", std::to_string(value), hint, range(hint));
-    }
-    void real(const char* name, double& value, const Hint& hint) override {
-        print(name, "real", number(value), hint, range(hint));
-    }
-    void slider(const char* name, double& value, const Hint& hint) override {
-        print(name, "slider", number(value), hint, range(hint));
-    }
-    void text(const char* name, std::string& value, const Hint& hint) override {
-        print(name, "text", quoted(value), hint);
-    }
-    void choice(const char* name, int& value, const std::vector<std::string>& names, const Hint& hint) override {
-        std::string list = ", \"names\": [";
-        for (std::size_t i = 0; i < names.size(); ++i) list += (i ? ", " : "") + quoted(names[i]);
-        print(name, "choice", number(value), hint, list + "]");
-    }
+const char* truth(bool value) { return value ? "true" : "false"; }
 
-    static std::string number(double value) {
-        std::ostringstream out;
-        out.precision(9);
-        out << value;
-        return out.str();
-    }
+std::string list(const multires::Vec3& v) {
+    return "[" + number(v.x()) + ", " + number(v.y()) + ", " + number(v.z()) + "]";
+}
 
-private:
-    void print(const char* name, const char* type, const std::string& value, const Hint& hint,
-               const std::string& more = "") {
-        bool derived = false;
-        for (const auto& other : others_) derived = derived || other.at(count_) != value;
-        std::cout << (count_++ ? "," : "") << "\n      {\"name\": " << quoted(name) << ", \"type\": " << quoted(type)
-                  << ", \"value\": " << value << more << ", \"derived\": " << (derived ? "true" : "false")
-                  << ", \"advanced\": " << (hint.advanced ? "true" : "false")
-                  << ",\n       \"label\": " << quoted(hint.label) << ", \"tooltip\": " << quoted(hint.tooltip) << "}";
-    }
-    static std::string range(const Hint& hint) {
-        std::string out;
-        if (hint.least > -1e300) out += ", \"least\": " + number(hint.least);
-        if (hint.most < 1e300) out += ", \"most\": " + number(hint.most);
-        return out;
-    }
+/// Type and default of a parameter. That of a layer is null: the first one that is not the current one.
+std::string type_and_value(const Parameter& p) {
+    const auto both = [](const char* type, const std::string& value) {
+        return "\"type\": " + quoted(type) + ", \"value\": " + value;
+    };
+    return std::visit(Overloaded{
+                          [&](const bool* v) { return both("boolean", truth(*v)); },
+                          [&](const int* v) { return both("integer", std::to_string(*v)); },
+                          [&](const double* v) { return both(p.hint.slider ? "slider" : "real", number(*v)); },
+                          [&](const std::string* v) { return both("text", quoted(*v)); },
+                          [&](const Choice& v) { return both("choice", std::to_string(v.value())); },
+                          [&](const Angle& v) { return both("angle", number(*v.degrees)); },
+                          [&](const Point& v) { return both("point", list(*v.at)); },
+                          [&](const Direction& v) { return both("direction", list(*v.unit)); },
+                          [&](const multires::LayerRef*) { return both("layer", "null"); },
+                      },
+                      p.field);
+}
 
-    std::vector<std::vector<std::string>> others_;
-    std::size_t count_ = 0;
-};
-
-/// Defaults as Printer prints them.
-class Values final : public Parameters {
-public:
-    std::vector<std::string> values;
-
-    void boolean(const char* /*name*/, bool& value, const Hint& /*hint*/) override {
-        values.emplace_back(value ? "true" : "false");
+std::string names_or_range(const Parameter& p) {
+    std::string out;
+    if (const auto* choice = std::get_if<Choice>(&p.field)) {
+        for (const std::string& name : choice->names) out += (out.empty() ? "" : ", ") + quoted(name);
+        return ", \"names\": [" + out + "]";
     }
-    void integer(const char* /*name*/, int& value, const Hint& /*hint*/) override {
-        values.push_back(std::to_string(value));
-    }
-    void real(const char* /*name*/, double& value, const Hint& /*hint*/) override { add(value); }
-    void slider(const char* /*name*/, double& value, const Hint& /*hint*/) override { add(value); }
-    void text(const char* /*name*/, std::string& value, const Hint& /*hint*/) override {
-        values.push_back(quoted(value));
-    }
-    void choice(const char* /*name*/, int& value, const std::vector<std::string>& /*names*/,
-                const Hint& /*hint*/) override {
-        add(value);
-    }
+    if (!p.hint.range) return out;
+    if (std::isfinite(p.hint.range->least)) out += ", \"least\": " + number(p.hint.range->least);
+    if (std::isfinite(p.hint.range->most)) out += ", \"most\": " + number(p.hint.range->most);
+    return out;
+}
 
-private:
-    void add(double value) { values.push_back(Printer::number(value)); }
-};
-
-std::vector<std::string> defaults(const Filter& filter, const multires::Layer* layer) {
-    Values values;
-    filter.parameters(values, layer);
-    return values.values;
+void print_parameters(const Filter& filter, const multires::Layer& layer) {
+    const char* comma = "";
+    const Call call = filter.call(&layer);
+    for (const Parameter& p : call.parameters) {
+        std::cout << comma << "\n      {\"name\": " << quoted(p.name) << ", " << type_and_value(p) << names_or_range(p)
+                  << ", \"derived\": " << truth(p.hint.derived) << ", \"advanced\": " << truth(p.hint.advanced)
+                  << ",\n       \"label\": " << quoted(p.hint.label) << ", \"tooltip\": " << quoted(p.hint.tooltip)
+                  << "}";
+        comma = ",";
+    }
 }
 
 void print_returns(const Filter& filter) {
@@ -135,10 +106,6 @@ multires::Layer sphere() {
 
 int main() {
     const multires::Layer layer = sphere();
-    multires::Layer other = layer;
-    const std::size_t n = layer.mesh.positions.size();
-    other.selected_vertex.assign(n, 1);
-    other.attributes.push_back({multires::AttributeKind::quality, "", 1, std::vector<double>(n, 1.0)});
     std::cout << "[";
     const char* comma = "";
     for (const Plugin* plugin : all_tables())
@@ -147,8 +114,7 @@ int main() {
                       << ", \"python_name\": " << quoted(filter.python_name)
                       << ",\n    \"info\": " << quoted(filter.info) << ",\n    \"changes\": " << filter.changes
                       << ", \"parameters\": [";
-            Printer printer({defaults(filter, nullptr), defaults(filter, &other)});
-            filter.parameters(printer, &layer);
+            print_parameters(filter, layer);
             std::cout << "],\n    \"returns\": [";
             print_returns(filter);
             std::cout << "]}";

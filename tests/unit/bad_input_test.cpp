@@ -174,11 +174,10 @@ struct Outcome {
 };
 
 Outcome call(const Filter& filter, const Layer& layer, const std::map<std::string, double>& values) {
-    Given given(values);
     Session session;
     Outcome out;
     try {
-        const Result result = filter.run(given, layer, session);
+        const Result result = run(filter, layer, session, values);
         out.numbers = fixtures::numbers(result);
         EXPECT_TRUE(!result.positions || result.positions->size() == layer.mesh.positions.size());
         EXPECT_TRUE(!result.wedges || result.wedges->size() == 3 * layer.mesh.faces.size());

@@ -33,9 +33,8 @@ Layer with_data(Mesh mesh) {
 }
 
 Result run(const Filter& filter, const Layer& layer, const std::map<std::string, double>& values = {}) {
-    Given given(values);
     Session session;
-    return filter.run(given, layer, session);
+    return run(filter, layer, session, values);
 }
 
 /// Nothing if it is refused, which it may be for its parameters only: the layer has all that filters ask for.
@@ -117,8 +116,7 @@ TEST(Commuting, FiltersOfDifferentDataGiveTheSameInAnyOrder) {
         Session session;  // with the pyramid kept from step to step
         Layer now = layer;
         for (const std::size_t i : order) {
-            Given given(steps[i].values);
-            now = after(now, filter_named(steps[i].name).run(given, now, session));
+            now = after(now, run(filter_named(steps[i].name), now, session, steps[i].values));
         }
         std::vector<double> values;
         for (const Attribute& a : now.attributes) values.insert(values.end(), a.values.begin(), a.values.end());
@@ -170,8 +168,7 @@ bool commute(const Step& a, const Step& b) {
 std::vector<double> in_turn(const Layer& layer, const Step& first, const Step& second, bool swapped) {
     Session session;
     const auto result_on = [&](const Layer& l, const Step& step) {
-        Given given(step.values);
-        Result r = step.filter->run(given, l, session);
+        Result r = run(*step.filter, l, session, step.values);
         r.report = Report();
         return r;
     };

@@ -1,9 +1,15 @@
 #include "all_tables.h"
+#include "attribute_fixtures.h"
+#include "given.h"
+#include "shapes.h"
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <regex>
 #include <set>
+#include <utility>
 
 // What every filter table must keep to, whatever the filter does.
 
@@ -28,43 +34,57 @@ protected:
     const Filter& filter() const { return *GetParam().filter; }
 };
 
-/// Checks every parameter it visits; as a reader it would change nothing.
-class Checker final : public Parameters {
-public:
-    void boolean(const char* name, bool&, const Hint& hint) override { check(name, hint); }
-    void integer(const char* name, int& value, const Hint& hint) override { in_range(name, value, hint); }
-    void real(const char* name, double& value, const Hint& hint) override { in_range(name, value, hint); }
-    void slider(const char* name, double& value, const Hint& hint) override {
-        in_range(name, value, hint);
-        EXPECT_GT(hint.least, -1e300) << name << ": a slider needs two ends";
-        EXPECT_LT(hint.most, 1e300) << name << ": a slider needs two ends";
-    }
-    void text(const char* name, std::string&, const Hint& hint) override { check(name, hint); }
-    void choice(const char* name, int& value, const std::vector<std::string>& names, const Hint& hint) override {
-        check(name, hint);
-        EXPECT_GE(names.size(), 2u) << name;
-        EXPECT_GE(value, 0) << name;
-        EXPECT_LT(value, static_cast<int>(names.size())) << name;
-        EXPECT_EQ(std::set<std::string>(names.begin(), names.end()).size(), names.size()) << name;
-    }
+void check_range(const Parameter& p, double value) {
+    const Range range = p.hint.range.value_or(Range());
+    EXPECT_LT(range.least, range.most) << p.name;
+    EXPECT_GE(value, range.least) << p.name;
+    EXPECT_LE(value, range.most) << p.name;
+    if (!p.hint.slider) return;
+    EXPECT_TRUE(std::isfinite(range.least) && std::isfinite(range.most)) << p.name << ": a slider needs two ends";
+}
 
-private:
-    void check(const std::string& name, const Hint& hint) {
-        static const std::regex snake_case("[a-z][a-z0-9]*(_[a-z0-9]+)*");
-        EXPECT_TRUE(std::regex_match(name, snake_case)) << name;
-        EXPECT_TRUE(names_.insert(name).second) << name << " is there twice";
-        EXPECT_FALSE(hint.label.empty()) << name;
-        EXPECT_FALSE(hint.tooltip.empty()) << name;
-    }
-    void in_range(const char* name, double value, const Hint& hint) {
-        check(name, hint);
-        EXPECT_LT(hint.least, hint.most) << name;
-        EXPECT_GE(value, hint.least) << name;
-        EXPECT_LE(value, hint.most) << name;
-    }
+void check_choice(const std::string& name, const Choice& choice) {
+    EXPECT_GE(choice.names.size(), 2u) << name;
+    EXPECT_GE(choice.value(), 0) << name;
+    EXPECT_LT(choice.value(), static_cast<int>(choice.names.size())) << name;
+    EXPECT_EQ(std::set<std::string>(choice.names.begin(), choice.names.end()).size(), choice.names.size()) << name;
+}
 
-    std::set<std::string> names_;
-};
+void check_parameters(const Filter& filter, const multires::Layer* layer) {
+    static const std::regex snake_case("[a-z][a-z0-9]*(_[a-z0-9]+)*");
+    std::set<std::string> names;
+    const Call call = filter.call(layer);
+    for (const Parameter& p : call.parameters) {
+        EXPECT_TRUE(std::regex_match(p.name, snake_case)) << p.name;
+        EXPECT_TRUE(names.insert(p.name).second) << p.name << " is there twice";
+        EXPECT_FALSE(p.hint.label.empty()) << p.name;
+        EXPECT_FALSE(p.hint.tooltip.empty()) << p.name;
+        const auto no_range = [&](const auto&) { EXPECT_FALSE(p.hint.range || p.hint.slider) << p.name; };
+        std::visit(Overloaded{
+                       [&](int* value) { check_range(p, *value); },
+                       [&](double* value) { check_range(p, *value); },
+                       [&](const Angle& angle) { check_range(p, *angle.degrees); },
+                       [&](const Choice& choice) { check_choice(p.name, choice), no_range(choice); },
+                       [&](const Direction& d) { EXPECT_NEAR(d.unit->norm(), 1, 1e-15) << p.name, no_range(d); },
+                       no_range,
+                   },
+                   p.field);
+    }
+}
+
+/// Defaults by name, as text.
+std::map<std::string, std::string> defaults(const Filter& filter, const multires::Layer* layer) {
+    std::map<std::string, std::string> out;
+    for (const Declared& d : declared(filter, layer)) out[d.name] = std::to_string(d.value);
+    return out;
+}
+
+multires::Layer tetrahedron() {
+    multires::Layer layer;
+    layer.mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
+    layer.mesh.faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    return layer;
+}
 
 }  // namespace
 
@@ -102,20 +122,29 @@ TEST_P(TableRow, MasksHoldPartsThatMakeSense) {
     EXPECT_EQ(filter().needs & ~(faces | attributes), 0u);
     EXPECT_EQ(filter().reads & ~(attributes | custom_attributes), 0u);
     EXPECT_EQ(filter().changes & ~all, 0u);
-    EXPECT_TRUE(filter().parameters && filter().run);
+    EXPECT_TRUE(filter().call);
 }
 
-TEST_P(TableRow, DefaultsWithoutAMeshAreInRange) {
-    Checker checker;
-    filter().parameters(checker, nullptr);
-}
+TEST_P(TableRow, DefaultsWithoutAMeshAreInRange) { check_parameters(filter(), nullptr); }
 
 TEST_P(TableRow, DefaultsForATetrahedronAreInRange) {
-    multires::Layer layer;
-    layer.mesh.positions = {{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {0, 0, 2}};
-    layer.mesh.faces = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-    Checker checker;
-    filter().parameters(checker, &layer);
+    const multires::Layer layer = tetrahedron();
+    check_parameters(filter(), &layer);
+}
+
+TEST_P(TableRow, DefaultsThatDependOnTheMeshAreMarkedAsDerived) {
+    const multires::Layer small = tetrahedron();
+    multires::Layer large =
+        multires::fixtures::with_everything(multires::shapes::scan(5000, {}), multires::fixtures::random_value);
+    large.selected_vertex.assign(large.mesh.positions.size(), 1);
+    const Call call = filter().call(nullptr);
+    for (const Parameter& p : call.parameters) {
+        std::set<std::string> values;
+        for (const multires::Layer* layer :
+             {&small, &std::as_const(large), static_cast<const multires::Layer*>(nullptr)})
+            values.insert(defaults(filter(), layer)[p.name]);
+        if (values.size() > 1) EXPECT_TRUE(p.hint.derived) << p.name;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(AllPlugins, TableRow, testing::ValuesIn(rows()),

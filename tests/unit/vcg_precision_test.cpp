@@ -40,9 +40,8 @@ void fill(typename Types<S>::VcgMesh& m) {
 template <class M>
 void apply(const Filter& filter, M& mesh) {
     const VcgLayer flat = to_layer(mesh);
-    Given given;
     Session session;
-    const Result result = filter.run(given, flat.layer, session);
+    const Result result = run(filter, flat.layer, session);
     write(mesh, flat, {&*result.positions});
 }
 

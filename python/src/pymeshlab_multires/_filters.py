@@ -413,8 +413,8 @@ def detail_to_quality(
         ms: the document.
         unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
             can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
-            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. If you
-            change only the unit, the default limits are converted.
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. Scripts may
+            leave limits out: they are then derived from the mesh, in this unit. In a dialog the numbers shown count.
         finest: Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. A number, at least
             0. None: derived from the mesh.
         coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
@@ -447,8 +447,8 @@ def low_pass(
         ms: the document.
         unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
             can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
-            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. If you
-            change only the unit, the default limits are converted.
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. Scripts may
+            leave limits out: they are then derived from the mesh, in this unit. In a dialog the numbers shown count.
         cutoff: Everything finer than this is removed: shorter waves, lower levels, levels with more vertices. A number,
             at least 0. None: derived from the mesh.
         softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
@@ -485,8 +485,8 @@ def stop_band(
         ms: the document.
         unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
             can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
-            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. If you
-            change only the unit, the default limits are converted.
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. Scripts may
+            leave limits out: they are then derived from the mesh, in this unit. In a dialog the numbers shown count.
         finest: Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. A number, at least
             0. None: derived from the mesh.
         coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
@@ -529,8 +529,8 @@ def enhance(
         gain: Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them. A number, 0 to 10.
         unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
             can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
-            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. If you
-            change only the unit, the default limits are converted.
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. Scripts may
+            leave limits out: they are then derived from the mesh, in this unit. In a dialog the numbers shown count.
         finest: Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. A number, at least
             0. None: derived from the mesh.
         coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
@@ -690,8 +690,8 @@ def denoise(
 
 
 def relax_attributes(
-    ms: MeshSet, *, color: bool | None = None, quality: bool | None = None, texcoord: bool = False,
-    wedge_texcoord: bool = False, custom: bool = False, custom_names: str = "", iterations: int = 1,
+    ms: MeshSet, *, color: bool | None = None, quality: bool | None = None, texcoord: bool | None = None,
+    wedge_texcoord: bool | None = None, custom: bool | None = None, custom_names: str = "", iterations: int = 1,
     strength: float = 1.0, operator: Operator = "cotangent Delaunay", corner_angle: float = 45.0,
     keep_outline: bool = True, linear_light: bool = False, selected: bool | None = None, quality_mask: bool = False,
     features: Features = "none", feature_angle: float = 40.0,
@@ -708,10 +708,10 @@ def relax_attributes(
         ms: the document.
         color: With alpha. None: derived from the mesh.
         quality: The scalar value of the vertices. None: derived from the mesh.
-        texcoord: Of the vertices.
+        texcoord: Of the vertices. None: derived from the mesh.
         wedge_texcoord: Of the faces' corners, chart by chart: corners with the same vertex and the same texture
-            coordinate stay together.
-        custom: Custom scalars and points of the vertices.
+            coordinate stay together. None: derived from the mesh.
+        custom: Custom scalars and points of the vertices. None: derived from the mesh.
         custom_names: Which custom attributes: their names, separated by commas. Empty: all, but for source_vertex.
         iterations: Steps of relaxation; each reaches a ring further. A whole number, 1 to 10000.
         strength: Share of each step that is taken: 1 replaces a value by the mean around it. A number, 1e-06 to 1.
@@ -764,13 +764,13 @@ def filter_attributes(
             for photographs; off, colours are computed with as they are stored, right for colour scales.
         mode: Low pass: remove everything finer than the cutoff. Stop band: remove what is between finest and coarsest.
             Enhance: multiply it by the gain.
-        gain: For enhance: 1 changes nothing, 2 doubles the details of the band, 0 removes them. A number, 0 to 8.
+        gain: For enhance: 1 changes nothing, 2 doubles the details of the band, 0 removes them. A number, 0 to 10.
         cutoff: For low pass: everything finer than this is removed: shorter waves, lower levels, levels with more
             vertices. A number, at least 0. None: derived from the mesh.
         unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
             can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
-            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. If you
-            change only the unit, the default limits are converted.
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. Scripts may
+            leave limits out: they are then derived from the mesh, in this unit. In a dialog the numbers shown count.
         finest: Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. A number, at least
             0. None: derived from the mesh.
         coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
@@ -812,13 +812,13 @@ def filter_custom_attributes(
         custom_names: Which custom attributes: their names, separated by commas. Empty: all, but for source_vertex.
         mode: Low pass: remove everything finer than the cutoff. Stop band: remove what is between finest and coarsest.
             Enhance: multiply it by the gain.
-        gain: For enhance: 1 changes nothing, 2 doubles the details of the band, 0 removes them. A number, 0 to 8.
+        gain: For enhance: 1 changes nothing, 2 doubles the details of the band, 0 removes them. A number, 0 to 10.
         cutoff: For low pass: everything finer than this is removed: shorter waves, lower levels, levels with more
             vertices. A number, at least 0. None: derived from the mesh.
         unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
             can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
-            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. If you
-            change only the unit, the default limits are converted.
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. Scripts may
+            leave limits out: they are then derived from the mesh, in this unit. In a dialog the numbers shown count.
         finest: Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. A number, at least
             0. None: derived from the mesh.
         coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
@@ -1029,10 +1029,10 @@ LIMITS: dict[str, dict[str, tuple[float, float]]] = {
         "iterations": (1, 10000), "strength": (1e-06, 1), "corner_angle": (0, 180), "feature_angle": (0.01, 179.99),
     },
     "filter_attributes": {
-        "gain": (0, 8), "softness": (0, 10),
+        "gain": (0, 10), "softness": (0, 10),
     },
     "filter_custom_attributes": {
-        "gain": (0, 8), "softness": (0, 10),
+        "gain": (0, 10), "softness": (0, 10),
     },
     "denoise_attributes": {
         "strength": (0, 100),

@@ -35,11 +35,11 @@ AllOptions all_defaults(const Layer* layer) {
 }
 
 void bind_all(Parameters& p, AllOptions& o) {
-    p.boolean("flag", o.flag, {"Flag", "true or false"});
-    p.integer("count", o.count, {"Count", "1 to 10", 1, 10});
-    p.real("length", o.length, {"Length", "mesh units, not negative", 0});
-    p.slider("amount", o.amount, {"Amount", "0 to 1", 0, 1, true, "Advanced things"});
-    p.choice("color", o.color, {"red", "green", "blue"}, {"Color", "one of three"});
+    p.add("flag", &o.flag, "Flag", "true or false");
+    p.add("count", &o.count, "Count", "1 to 10").between(1, 10);
+    p.add("length", &o.length, "Length", "mesh units, not negative").at_least(0);
+    p.add("amount", &o.amount, "Amount", "0 to 1").slider(0, 1).advanced("Advanced things");
+    p.add("color", Choice(o.color, {"red", "green", "blue"}), "Color", "one of three");
 }
 
 Result report_all(const Layer& layer, const AllOptions& o, Session& session) {
@@ -68,10 +68,11 @@ struct ChangeOptions {
 ChangeOptions change_defaults(const Layer*) { return {}; }
 
 void bind_change(Parameters& p, ChangeOptions& o) {
-    p.real("shift", o.shift, {"Shift", "mesh units"});
-    p.choice("fail", o.fail,
-             {"no", "input", "internal", "memory", "unknown", "cancel", "not finite", "wrong size", "wrong source"},
-             {"Fail", "how to fail"});
+    p.add("shift", &o.shift, "Shift", "mesh units");
+    p.add("fail",
+          Choice(o.fail, {"no", "input", "internal", "memory", "unknown", "cancel", "not finite", "wrong size",
+                          "wrong source"}),
+          "Fail", "how to fail");
 }
 
 void fail_early(Fail fail) {
@@ -144,7 +145,7 @@ struct KeepOptions {
 
 KeepOptions keep_defaults(const Layer*) { return {}; }
 
-void bind_keep(Parameters& p, KeepOptions& o) { p.real("value", o.value, {"Value", "what to keep"}); }
+void bind_keep(Parameters& p, KeepOptions& o) { p.add("value", &o.value, "Value", "what to keep"); }
 
 /// Keeps a number where a pyramid would be: the adapter does not look inside.
 Result keep(const Layer&, const KeepOptions& o, Session& session) {
@@ -171,10 +172,7 @@ Filter row(const std::string& menu_name, const std::string& python_name, MenuCla
             menu_class,
             needs,
             vertex_color,
-            changes,
-            nullptr,
-            nullptr,
-            {}};
+            changes};
 }
 
 }  // namespace
