@@ -94,7 +94,7 @@ def reference(rows):
 # ---- .mlx examples ---------------------------------------------------------------------------------------------------
 
 RICH = {"boolean": "RichBool", "integer": "RichInt", "real": "RichFloat", "slider": "RichDynamicFloat",
-        "angle": "RichFloat", "choice": "RichEnum", "text": "RichString"}  # fmt: skip
+        "angle": "RichFloat", "choice": "RichEnum", "text": "RichString", "layer": "RichMesh"}  # fmt: skip
 
 
 def param(p, value):

@@ -1,6 +1,7 @@
 #include "shared/bindings.h"
 #include "shared/returns.h"
 
+#include "filters/layers/difference.h"
 #include "filters/layers/levels.h"
 #include "filters/shape/band_filters.h"
 
@@ -68,6 +69,24 @@ Result run_detail(const Layer& layer, const DetailRow& row, Session& session) {
     return detail_quality(layer, o, session);
 }
 
+DifferenceOptions difference_defaults(const Layer* layer) {
+    DifferenceOptions o;
+    if (layer) o.beyond = 0.001 * box_diagonal(*layer);
+    return o;
+}
+
+void bind_difference(Parameters& p, DifferenceOptions& o) {
+    p.add("layer", &o.layer, "Reference", "The layer that the distance is measured to: a surface, open or closed.");
+    p.add("wavelength", &o.wavelength, "Wavelength",
+          "Mesh units: differences that vary more finely over the surface, such as noise, are left out. 0 leaves in "
+          "all.")
+        .at_least(0);
+    p.add("beyond", &o.beyond, "Tolerance", "Mesh units: the share of the surface that is farther away is reported.")
+        .at_least(0)
+        .derived();
+    bind_pyramid(p, o.pyramid);
+}
+
 const Returns compute_returns{
     {"levels", Type::integer, "", "Number of the coarsest level; the finest is 0."},
     {"level", Type::list, "", "0, 1, ... to the coarsest."},
@@ -97,6 +116,18 @@ const Returns detail_returns{
     {"least_detail", Type::real, "mesh units", "Smallest value written to the vertex quality."},
     {"largest_detail", Type::real, "mesh units", "Largest value."},
     {"rms_detail", Type::real, "mesh units", "Root of their mean square."},
+};
+
+const Returns difference_returns{
+    {"rms_difference", Type::real, "mesh units", "Root mean square of the difference over the surface."},
+    {"mean_difference", Type::real, "mesh units", "Its mean: positive outside the reference, on the whole."},
+    {"largest_difference", Type::real, "mesh units", "Largest value written to the vertex quality."},
+    {"smallest_difference", Type::real, "mesh units", "Smallest value; negative inside."},
+    {"share_beyond", Type::real, "", "Share of the area farther away than the tolerance, 0 to 1."},
+    {"gains", Type::list, "", "With a wavelength: the factor of each level's details, finest first.", false},
+    {"pyramid_reused", Type::boolean, "", "With a wavelength: the pyramid kept with the mesh was used.", false},
+    {"locked_vertices", Type::integer, "", "With a wavelength: vertices at non-manifold edges or points.", false},
+    {"unreferenced_vertices", Type::integer, "", "With a wavelength: vertices without a face.", false},
 };
 
 }  // namespace
@@ -131,6 +162,17 @@ const Plugin& table() {
                      cite_guskov,
                  MenuClass::quality, faces, none, vertex_quality, detail_returns + gains_returns + pyramid_returns},
                 detail_defaults, bind_detail, run_detail),
+            filter(
+                {"Multiresolution: Difference to Layer", "compute_scalar_multires_difference_per_vertex",
+                 std::string("Stores in the vertex quality how far each vertex is from another layer's surface, as "
+                             "the two are placed in the document: positive outside, where that layer's normals point "
+                             "to, negative inside. With a wavelength, only what is as coarse as that: deformation "
+                             "without noise.<br>") +
+                     cite_roy +
+                     "<br>See <i>B&aelig;rentzen, Aan&aelig;s</i>, <b>\"Signed Distance Computation Using the Angle "
+                     "Weighted Pseudonormal\"</b>, IEEE TVCG 2005.",
+                 MenuClass::quality, faces, none, vertex_quality, difference_returns},
+                difference_defaults, bind_difference, difference_to_layer),
         }};
     return plugin;
 }

@@ -78,7 +78,7 @@ double value_of(const Declared& d, Bytes& in) {
         return std::min(d.most, std::max(d.least, 0.0) + how % 24);
     case Declared::Type::real:
         if (how < 64) return how / 8.0;
-        if (how < 96) return d.least + (d.most - d.least) * (how - 64) / 31;
+        if (how < 96) return std::max(d.least, -1e30) + std::min(d.most - d.least, 1e30) * (how - 64) / 31;
         return in.number();
     case Declared::Type::text:
         break;

@@ -69,7 +69,7 @@ inline Result run(const Filter& filter, const Layer& layer, Session& session, co
 struct Declared {
     enum class Type { boolean, integer, real, choice, text } type;
     std::string name;
-    double value, least, most;  ///< 1e300 where there is no limit
+    double value, least, most;  ///< infinite where there is no limit
 };
 
 /// All such parameters of a filter.
@@ -79,7 +79,7 @@ inline std::vector<Declared> declared(const Filter& filter, const Layer* layer) 
     for (const Parameter& p : call.parameters) {
         const Range range = p.hint.range.value_or(Range());
         const auto add = [&](Declared::Type type, double value, Range r) {
-            list.push_back({type, p.name, value, std::max(r.least, -1e300), std::min(r.most, 1e300)});
+            list.push_back({type, p.name, value, r.least, r.most});
         };
         std::visit(Overloaded{
                        [&](bool* v) {

@@ -150,10 +150,12 @@ TEST(Limits, WhereOnlyTheUnitIsGivenTheDefaultsAreDerivedInThatUnit) {
     for (const Unit unit : {Unit::wavelength, Unit::wavelength_percent, Unit::level, Unit::vertices}) {
         const Band band = default_band(layer, unit);
         const double number = static_cast<double>(unit);
-        Session session;
-        EXPECT_EQ(fixtures::numbers(run(filter, layer, session, {{"unit", number}})),
-                  fixtures::numbers(run(filter, layer, session,
-                                        {{"unit", number}, {"finest", band.finest}, {"coarsest", band.coarsest}})));
+        const auto numbers = [&](const Given& given) {
+            Session session;
+            return fixtures::numbers(run(filter, layer, session, given));
+        };
+        EXPECT_EQ(numbers({{"unit", number}}),
+                  numbers({{"unit", number}, {"finest", band.finest}, {"coarsest", band.coarsest}}));
     }
 }
 

@@ -281,6 +281,7 @@ static bool applies(const Placing& place, const Filter& filter, const Variant& v
     // Percent of the box, which has the world's axes; or a default that is a length.
     if (filter.python_name == "generate_multires_adaptive_reconstruction")
         return keeps_box && (place.scale == 1 || variant.name != "unit=0");
+    if (filter.python_name == "compute_scalar_multires_difference_per_vertex") return !turned_over;  // signed
     if (variant.name == "signed_normal=1") return !turned_over;
     return true;
 }
