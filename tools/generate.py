@@ -101,8 +101,10 @@ def param(p, value):
     """The XML of one parameter."""
     if p["type"] == "choice" and isinstance(value, str):
         value = p["names"].index(value)
+    if p["type"] == "layer":  # by its position in MeshLab 2020.09, by its id later: the first one, unless told
+        value = value or 0
     text = str(value).lower() if p["type"] == "boolean" else value if p["type"] == "text" else \
-        str(value) if p["type"] == "integer" else number(value)  # fmt: skip
+        str(value) if p["type"] in ("integer", "layer") else number(value)  # fmt: skip
     out = ET.Element("Param", type=RICH[p["type"]], name=p["name"], value=text)
     if p["type"] == "slider":
         out.set("min", number(p["least"]))

@@ -59,6 +59,16 @@ def noisy(v, f):
     return document(with_noise(v, f, "normals", 0.2, seed=1), f)
 
 
+def warped(v, f):
+    """Two layers: the mesh, and on top a copy with a swelling of long waves and with noise."""
+    scale = np.ptp(v, axis=0).max()
+    swelling = 0.01 * scale * np.sin(11 * v[:, 1:2] / scale) * np.sin(9 * v[:, 0:1] / scale)
+    ms = document(v, f)
+    noise = with_noise(v, f, "normals", 0.2, seed=1)
+    ms.add_mesh(pymeshlab.Mesh(noise + swelling * ms.current_mesh().vertex_normal_matrix(), f))
+    return ms
+
+
 # ---- looks -----------------------------------------------------------------------------------------------------------
 
 
@@ -114,6 +124,14 @@ PAIRS = {
         {**PERCENT, "finest": 1, "coarsest": 6, "signed_normal": True},
         quality,
         "1 to 6 % of the box, signed",
+    ),
+    "compute_scalar_multires_difference_per_vertex": (
+        warped,
+        shaded,
+        "a warped and noisy copy",
+        {"wavelength": 0.02},
+        quality,
+        "to the original, without the noise",
     ),
     "apply_coord_multires_low_pass": (document, shaded, "", {**PERCENT, "cutoff": 8}, shaded, "cutoff 8 % of the box"),
     "apply_coord_multires_stop_band": (

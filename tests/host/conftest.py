@@ -18,6 +18,12 @@ FILTERS = json.loads(subprocess.check_output([BUILD / "tests/tables/multires_lis
 FILTER_IDS = [f["python_name"] for f in FILTERS]
 
 
+def wants_another_layer(name):
+    """Whether the filter of that Python name works on two layers."""
+    parameters = next(f["parameters"] for f in FILTERS if f["python_name"] == name)
+    return any(p["type"] == "layer" for p in parameters)
+
+
 @pytest.fixture(scope="session")
 def meshes(tmp_path_factory):
     """A folder of generated meshes, a PLY file for each class of mesh."""

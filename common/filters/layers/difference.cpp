@@ -1,7 +1,6 @@
 #include "filters/layers/difference.h"
 
 #include "base/parallel.h"
-#include "filters/attributes/attributes_band.h"
 #include "measure/signed_distance.h"
 #include "mesh/validation.h"
 #include "pyramid/band.h"
@@ -69,7 +68,8 @@ std::vector<double> low_passed(const std::vector<double>& values, const Layer& l
     Field field = Field::unset(static_cast<Index>(values.size()), 1);
     field.has_positions = false;
     std::copy(values.begin(), values.end(), field.values.begin());
-    const Field smooth = through_pyramid(*pyramid, field, gains, [](const Coefficients&) {});
+    const Coefficients details = pyramid->scheme().analyse(to_places(pyramid->hierarchy(), field));
+    const Field smooth = to_input(pyramid->hierarchy(), pyramid->scheme().synthesise(details, with_gain(gains)));
     return {smooth.values.begin(), smooth.values.end()};
 }
 

@@ -7,13 +7,13 @@ from ._call import Array, MeshSet, also_flat, apply
 
 __all__ = [
     "AdaptiveReconstructionReport", "AttributeChanges", "BuildPyramidReport", "DenoiseAttributesReport",
-    "DenoiseReport", "DetailToQualityReport", "EnhanceReport", "EqualizerReport", "Features", "FilterAttributesReport",
-    "FilterCustomAttributesReport", "GenerateTexcoordReport", "Grouping", "LIMITS", "LevelAsLayerReport",
-    "LowPassReport", "Mode", "Movement", "Operator", "Pyramid", "PyramidUse", "RelativeTo", "RelaxAttributesReport",
-    "Result", "Scheme", "StopBandReport", "Storage", "UnsharpReport", "adaptive_reconstruction", "build_pyramid",
-    "denoise", "denoise_attributes", "detail_to_quality", "enhance", "equalizer", "filter_attributes",
-    "filter_custom_attributes", "generate_texcoord", "level_as_layer", "low_pass", "relax_attributes", "stop_band",
-    "unsharp",
+    "DenoiseReport", "DetailToQualityReport", "DifferenceToLayerReport", "EnhanceReport", "EqualizerReport", "Features",
+    "FilterAttributesReport", "FilterCustomAttributesReport", "GenerateTexcoordReport", "Grouping", "LIMITS",
+    "LevelAsLayerReport", "LowPassReport", "Mode", "Movement", "Operator", "Pyramid", "PyramidUse", "RelativeTo",
+    "RelaxAttributesReport", "Result", "Scheme", "StopBandReport", "Storage", "UnsharpReport",
+    "adaptive_reconstruction", "build_pyramid", "denoise", "denoise_attributes", "detail_to_quality",
+    "difference_to_layer", "enhance", "equalizer", "filter_attributes", "filter_custom_attributes", "generate_texcoord",
+    "level_as_layer", "low_pass", "relax_attributes", "stop_band", "unsharp",
 ]
 
 Scheme: TypeAlias = Literal["Roy", "Guskov", "Lazy"]
@@ -189,6 +189,30 @@ class DetailToQualityReport(PyramidUse, Result):
     """Root of their mean square (mesh units)."""
     gains: Array
     """The factor of each level's details, finest first."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class DifferenceToLayerReport(Result):
+    """What difference_to_layer() returns."""
+
+    rms_difference: float
+    """Root mean square of the difference over the surface (mesh units)."""
+    mean_difference: float
+    """Its mean: positive outside the reference, on the whole (mesh units)."""
+    largest_difference: float
+    """Largest value written to the vertex quality (mesh units)."""
+    smallest_difference: float
+    """Smallest value; negative inside (mesh units)."""
+    share_beyond: float
+    """Share of the area farther away than the tolerance, 0 to 1."""
+    gains: Array | None = None
+    """With a wavelength: the factor of each level's details, finest first."""
+    pyramid_reused: bool | None = None
+    """With a wavelength: the pyramid kept with the mesh was used."""
+    locked_vertices: int | None = None
+    """With a wavelength: vertices at non-manifold edges or points."""
+    unreferenced_vertices: int | None = None
+    """With a wavelength: vertices without a face."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -430,6 +454,38 @@ def detail_to_quality(
         Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
     """
     return apply(DetailToQualityReport, "compute_scalar_multires_detail_per_vertex", **locals())
+
+
+@also_flat(Pyramid)
+def difference_to_layer(
+    ms: MeshSet, *, layer: int | None = None, wavelength: float = 0.0, beyond: float | None = None,
+    pyramid: Pyramid | None = None,
+) -> DifferenceToLayerReport:
+    """Stores in the vertex quality how far each vertex is from another layer's surface, as the two are placed in the
+    document: positive outside, where that layer's normals point to, negative inside.
+
+    With a wavelength, only what is as coarse as that: deformation without noise.
+
+    The filter compute_scalar_multires_difference_per_vertex, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        layer: The layer that the distance is measured to: a surface, open or closed. None: the first other layer.
+        wavelength: Mesh units: differences that vary more finely over the surface, such as noise, are left out. 0
+            leaves in all. A number, at least 0.
+        beyond: Mesh units: the share of the surface that is farther away is reported. A number, at least 0. None:
+            derived from the mesh.
+        pyramid: how the pyramid is built. None: the filter's defaults.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Roy, Foufou, Koschan, Truchetet, Abidi, "Multiresolution Analysis for Irregular Meshes", SPIE Photonics
+            Technologies 2003.
+        Bærentzen, Aanæs, "Signed Distance Computation Using the Angle Weighted Pseudonormal", IEEE TVCG 2005.
+    """
+    return apply(DifferenceToLayerReport, "compute_scalar_multires_difference_per_vertex", **locals())
 
 
 @also_flat(Pyramid)
