@@ -17,7 +17,8 @@ COMMON = {
     "solvers": ["base", "mesh", "operators", "hierarchy"],
     "schemes": ["base", "mesh", "operators", "hierarchy"],
     "pyramid": ["base", "mesh", *FLOOR, "solvers", "schemes"],
-    "filters": ["base", "mesh", *FLOOR, "solvers", "schemes", "pyramid"],
+    "denoise": ["base", "mesh", *FLOOR],
+    "filters": ["base", "mesh", *FLOOR, "solvers", "schemes", "pyramid", "denoise"],
 }
 PLUGINS = {
     "shared": list(COMMON),

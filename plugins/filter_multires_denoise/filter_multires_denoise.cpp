@@ -22,8 +22,8 @@ void bind_threshold(Parameters& p, DenoiseOptions& o) {
           "the value below.")
         .in(group);
     p.add("threshold", &o.threshold, "Threshold value",
-          "Size of the noise if the threshold is not automatic: its standard deviation for the normal field, the "
-          "length up to which details are dropped for the others.")
+          "Size of the noise if the threshold is not automatic: its standard deviation for automatic and normal "
+          "field, the length up to which details are dropped for the others.")
         .at_least(0)
         .in(group);
     p.add("strength", &o.strength, "Strength",
@@ -34,8 +34,10 @@ void bind_threshold(Parameters& p, DenoiseOptions& o) {
 }
 
 void bind_denoise(Parameters& p, DenoiseOptions& o) {
-    p.add("method", Choice(o.method, {"normal field", "soft threshold", "hard threshold"}), "Method",
-          "Normal field: denoises the face normals over several scales and moves the vertices to fit; tunes itself "
+    p.add("method", Choice(o.method, {"normal field", "soft threshold", "hard threshold", "automatic"}), "Method",
+          "Automatic: measures the noise and blends low passes, local Wiener filters, the normal field and the mesh as "
+          "it is so that the result is expected to be nearest to the truth. Normal field: denoises the face normals "
+          "over several scales and moves the vertices to fit; tunes itself "
           "and keeps sharp edges. Soft threshold: shrinks the pyramid's details (Roy). Hard threshold: drops small "
           "details and leaves large ones.")
         .in("Method");
@@ -110,10 +112,18 @@ void bind_attributes(Parameters& p, AttributeDenoiseOptions& o) {
 }
 
 const Returns denoise_returns{
-    {"noise", Type::real, "mesh units", "Deviation of the noise found, from second differences."},
+    {"noise", Type::real, "mesh units", "Standard deviation of the noise found, along the normals."},
+    {"noise_in_edges", Type::real, "", "Automatic: the same in mean edge lengths.", false},
+    {"noise_in_all_directions", Type::boolean, "", "Automatic: the noise was found within the surface too.", false},
+    {"spikes_removed", Type::integer, "", "Vertices found to be impulses and set back first.", false},
+    {"estimated_rms_before", Type::real, "mesh units",
+     "Automatic: expected RMS distance of the vertices from the truth.", false},
+    {"estimated_rms_after", Type::real, "mesh units", "Automatic: the same of the result.", false},
+    {"share_low_pass", Type::real, "", "Automatic: weight of the low passes in the result.", false},
+    {"share_wiener", Type::real, "", "Automatic: weight of the local Wiener filters.", false},
+    {"share_normal_field", Type::real, "", "Automatic: weight of the normal field.", false},
     {"noise_per_level", Type::list, "",
-     "Noise in the details of each level, finest first: of the normals, or with thresholding in mesh units."},
-    {"spikes_removed", Type::integer, "", "Normal field: vertices found to be impulses and set back first.", false},
+     "Noise in the details of each level, finest first: of the normals, or with thresholding in mesh units.", false},
     {"normal_noise", Type::real, "", "Normal field: median difference of neighbouring unit normals.", false},
     {"normal_noise_after", Type::real, "", "Normal field: the same after denoising.", false},
     {"detail_per_level", Type::list, "", "Normal field: RMS detail of the normals on each level.", false},
@@ -142,10 +152,13 @@ const Plugin& table() {
         "FilterMultiresDenoise",
         {
             filter({"Multiresolution: Denoise", "apply_coord_multires_denoise",
-                    std::string("Removes noise and keeps shape, without a parameter to set.<br>") + cite_roy +
+                    std::string("Removes noise and keeps shape, without a parameter to set: the noise is measured, and "
+                                "what is done is chosen by the estimated distance from the truth.<br>") +
+                        cite_roy +
                         "<br>See <i>Sun, Rosin, Martin, Langbein</i>, <b>\"Fast and Effective Feature-Preserving Mesh "
                         "Denoising\"</b>, IEEE TVCG 2007.<br>See <i>Zheng, Fu, Au, Tai</i>, <b>\"Bilateral Normal "
-                        "Filtering for Mesh Denoising\"</b>, IEEE TVCG 2011.",
+                        "Filtering for Mesh Denoising\"</b>, IEEE TVCG 2011.<br>See <i>Ramani, Blu, Unser</i>, "
+                        "<b>\"Monte-Carlo SURE\"</b>, IEEE Transactions on Image Processing 2008.",
                     MenuClass::smoothing, faces, vertex_quality, vertex_positions,
                     denoise_returns + change_returns + thresholding_returns},
                    denoise_defaults, bind_denoise, denoise),

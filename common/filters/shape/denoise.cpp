@@ -1,5 +1,6 @@
 #include "filters/shape/denoise.h"
 
+#include "filters/shape/denoise_automatic.h"
 #include "filters/shape/denoise_threshold.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
@@ -130,14 +131,19 @@ Result denoise(const Layer& layer, const DenoiseOptions& options, Session& sessi
     const std::vector<double> weights = region_weights(layer, options.region);
     const std::vector<double> confidence = confidence_of(layer, options);
 
-    const double deviation = noise_deviation(start.mesh);
-    result.report.add("noise", deviation, "mesh units");
+    double deviation = 0;
+    if (options.method != DenoiseMethod::automatic) {
+        deviation = noise_deviation(start.mesh);
+        result.report.add("noise", deviation, "mesh units");
+    }
     const double given =
         options.unit == ThresholdUnit::percent ? options.threshold / 100 * box_diagonal(start) : options.threshold;
     std::vector<double> movement = weights;  // how far each vertex may follow, and be shifted
     Positions after;
-    if (options.method == DenoiseMethod::normal_field) {
-        after = by_normal_field(start, options, given, session, result.report);
+    if (options.method == DenoiseMethod::automatic || options.method == DenoiseMethod::normal_field) {
+        after = options.method == DenoiseMethod::automatic
+                    ? by_automatic(start, options, given, session, result.report)
+                    : by_normal_field(start, options, given, session, result.report);
         // Here confidence scales the movement; thresholding takes it as a local threshold.
         std::vector<double> doubt = confidence;
         for (double& c : doubt) c = 1 - c;

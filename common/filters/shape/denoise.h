@@ -8,14 +8,17 @@
 namespace multires {
 
 /// How noise is told from shape.
-enum class DenoiseMethod {
+enum class DenoiseMethod {  // the order is that of scripts: append
     /// The scale space of the face normals, details kept where they exceed what noise leaves there: see
-    /// normals/normal_field.h. Needs no parameter, keeps sharp edges.
+    /// normals/normal_field.h. Needs no parameter, takes every shape for piecewise smooth.
     normal_field,
     /// Soft thresholding of the pyramid's detail vectors (Roy et al. 2003, eq. 8).
     soft_threshold,
     /// Hard thresholding of them.
     hard_threshold,
+    /// Measures the noise and chooses among low passes, local Wiener filters, the normal field and the input itself by
+    /// how far from the truth each is expected to be: see denoise/automatic.h. Needs no parameter.
+    automatic,
 };
 
 /// What a threshold is given in.
@@ -26,12 +29,12 @@ enum class ThresholdUnit {
 };
 
 struct DenoiseOptions {
-    DenoiseMethod method = DenoiseMethod::normal_field;
+    DenoiseMethod method = DenoiseMethod::automatic;
     ThresholdUnit unit = ThresholdUnit::automatic;
-    /// Length of noise, >= 0: thresholding drops details up to it; the normal field takes it for the standard
-    /// deviation.
+    /// Length of noise, >= 0: thresholding drops details up to it; the others take it for the
+    /// standard deviation.
     double threshold = 0;
-    double strength = 1;   ///< >= 0; factor for the noise the normal field or the automatic threshold assumes; 0: none
+    double strength = 1;   ///< >= 0; factor for the noise that is assumed, unless a threshold is given; 0: none
     int finest_level = 0;  ///< thresholding: levels finest_level .. coarsest_level - 1
     int coarsest_level = 5;    ///< (Roy: the five finest)
     bool per_level = true;     ///< thresholding, automatic: a threshold for each level; otherwise that of the finest
@@ -45,7 +48,7 @@ struct DenoiseOptions {
     PyramidOptions pyramid = fine_levels();        ///< for thresholding
 };
 
-/// Standard deviation of the noise along the normals, mesh units: median of the second-order differences over the edges
+/// Standard deviation of the noise along the normals, mesh units, for all methods but the automatic: median of the second-order differences over the edges
 /// (Guskov et al. 1999, section 2.1), so that sharp edges hardly count. Somewhat low where noise is as strong as the
 /// triangles are large, and an upper estimate for meshes whose shape is as fine as their triangles.
 double noise_deviation(const Mesh& mesh);

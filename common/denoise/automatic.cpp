@@ -1,0 +1,245 @@
+#include "denoise/automatic.h"
+
+#include "base/parallel.h"
+#include "measure/measure.h"
+#include "measure/vertex_normals.h"
+#include "normals/spikes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+constexpr double rounding = 1e-4;      ///< edge lengths: less than this is no noise
+constexpr double small_weight = 0.04;  ///< candidates with less than this are left out
+
+using Tick = std::function<void(double, const char*)>;
+
+/// Steps of Taubin's low pass after which the normals serve as directions: the stronger the noise, the more.
+int normal_steps(double deviation_in_edges) { return std::clamp(static_cast<int>(100 * deviation_in_edges), 3, 30); }
+
+/// True if the vertices that moved stand out of the surface far more than what is left does: a rough surface has spikes
+/// of the common kind.
+bool stand_out(const Faces& faces, const Positions& before, const Positions& after, const Neighbours& near) {
+    const Array<Vec3> normal = vertex_normals(faces, taubin(near, after, 3));
+    const std::vector<double> zero(3 * before.size(), 0);
+    const std::vector<double> detail = AlongNormals(near, before, normal, {}).detail(zero);
+    const std::vector<double> left = AlongNormals(near, after, normal, {}).detail(zero);
+    std::vector<double> moved, rest;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (before[i] != after[i]) moved.push_back(std::abs(detail[3 * i]));
+        rest.push_back(std::abs(left[3 * i]));
+    }
+    const auto quantile = [](std::vector<double>& v, double share) {
+        const auto it = v.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
+        std::nth_element(v.begin(), it, v.end());
+        return *it;
+    };
+    return !moved.empty() && quantile(moved, 0.5) > 1.3 * quantile(rest, 0.8);
+}
+
+/// What the choice is made on: the whole mesh, or patches of a large one.
+struct Sample {
+    Faces faces;
+    Positions positions;
+    std::vector<double> deviation;
+    std::vector<std::uint8_t> core;  ///< vertices that count: not too near to where the patches were cut out
+};
+
+constexpr Index whole_up_to = 25000, patches = 12, patch_size = 1500;
+
+/// Breadth-first balls around vertices that are spread over the indices.
+Sample patches_of(const Faces& faces, const Positions& positions, const Neighbours& near,
+                  const std::vector<double>& deviation) {
+    std::vector<Index> place(positions.size(), -1), members;
+    std::vector<std::uint8_t> core;
+    for (Index patch = 0; patch < patches; ++patch) {
+        const Index seed =
+            static_cast<Index>((static_cast<std::int64_t>(near.rows()) * (2 * patch + 1)) / (2 * patches));
+        if (place[seed] >= 0) continue;
+        const std::size_t begin = members.size();
+        const auto take = [&](Index v) {
+            place[v] = static_cast<Index>(members.size());
+            members.push_back(v);
+        };
+        take(seed);
+        for (std::size_t next = begin; next < members.size() && members.size() < begin + patch_size; ++next)
+            for (Index k = near.offset[members[next]]; k < near.offset[members[next] + 1]; ++k)
+                if (place[near.vertex[k]] < 0) take(near.vertex[k]);
+        core.resize(members.size(), 0);
+        const std::size_t inner =
+            members.size() - begin >= patch_size ? (members.size() - begin) * 7 / 10 : members.size() - begin;
+        std::fill_n(core.begin() + static_cast<std::ptrdiff_t>(begin), inner, 1);
+    }
+    Sample sample;
+    sample.core = std::move(core);
+    sample.positions.resize(members.size());
+    sample.deviation.resize(members.size());
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        sample.positions[i] = positions[members[i]];
+        sample.deviation[i] = deviation[members[i]];
+    }
+    std::size_t count = 0;
+    const auto inside = [&](const Face& f) { return place[f[0]] >= 0 && place[f[1]] >= 0 && place[f[2]] >= 0; };
+    for (const Face& f : faces) count += inside(f);
+    sample.faces.resize(count);
+    count = 0;
+    for (const Face& f : faces)
+        if (inside(f)) sample.faces[count++] = {place[f[0]], place[f[1]], place[f[2]]};
+    return sample;
+}
+
+/// A surface with directions and weights for its candidates.
+struct Prepared {
+    Array<Vec3> normal;
+    std::vector<double> weight;
+};
+
+Prepared prepared(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+                  int steps) {
+    const Positions smooth = taubin(near, positions, steps);
+    return {vertex_normals(faces, smooth), cotangent_weights(faces, at, near, smooth)};
+}
+
+/// Factor for the deviation when choosing. On smooth shapes a blend keeps as much of the noise as the deviation is
+/// underestimated, while a bit too much costs little elsewhere: so the estimate's own error is added where the noise is
+/// strong enough to be told from the shape.
+double caution(double deviation_in_edges, Index vertices) {
+    const double error = std::min(0.12, 0.04 + 3 / std::sqrt(static_cast<double>(vertices)));
+    return 1 + error * std::clamp((deviation_in_edges - 0.03) / 0.07, 0.0, 1.0);
+}
+
+/// The noise as it is assumed for the choice.
+struct Assumed {
+    std::vector<double> deviation;  ///< #V: along the normals, mesh units, times `factor`
+    double factor = 1;              ///< see caution()
+    int normal_steps = 3;           ///< see normal_steps()
+};
+
+struct Choice {
+    Eigen::VectorXd weights;
+    double before = 0, after = 0;  ///< mean square error of the heights
+};
+
+/// Weights so small that their candidates are not worth making go to the others.
+void drop_small(Eigen::VectorXd& t) {
+    const double before = t.sum();
+    for (Eigen::Index k = 0; k < t.size(); ++k)
+        if (t[k] < small_weight) t[k] = 0;
+    if (t.sum() > 0) t *= before / t.sum();
+}
+
+/// Least risk of the normals, as long as distances gain at least half of what they could.
+Eigen::VectorXd weights_of(const Risks& r) {
+    const double limit = (r.heights.constant + r.heights.at(least_risk(r.heights))) / 2;
+    Eigen::VectorXd t;
+    for (const double heights : {0.0, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0}) {
+        const double e = 1 / r.edges.constant, h = heights / r.heights.constant;
+        t = least_risk({e * r.edges.constant + h * r.heights.constant, e * r.edges.linear + h * r.heights.linear,
+                        e * r.edges.quadratic + h * r.heights.quadratic});
+        drop_small(t);
+        if (r.heights.at(t) <= limit) break;
+    }
+    return t;
+}
+
+Choice choose(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+              const Assumed& noise, const std::vector<std::uint8_t>& core, const std::function<void(double)>& tick) {
+    const Prepared p = prepared(faces, positions, at, near, noise.normal_steps);
+    const CandidateMaker maker(faces, positions, at, near, p.normal, p.weight, noise.deviation);
+    const Risks r = risks(near, maker.responses(tick), noise.deviation, maker.probe(), core);
+    Choice choice;
+    choice.weights = weights_of(r);
+    // What is expected goes with the deviation as it was found.
+    Risk expected = r.heights;
+    expected.constant /= noise.factor * noise.factor;
+    expected.linear /= noise.factor * noise.factor;
+    choice.before = expected.constant;
+    choice.after = std::max(0.0, expected.at(choice.weights));
+    return choice;
+}
+
+/// On patches if the mesh is large.
+Choice choose_on_sample(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+                        const Assumed& noise, const std::function<void(double)>& tick) {
+    if (near.rows() <= whole_up_to)
+        return choose(faces, positions, at, near, noise, std::vector<std::uint8_t>(near.rows(), 1), tick);
+    const Sample sample = patches_of(faces, positions, near, noise.deviation);
+    const Incidence sample_at = vertex_faces(sample.faces, static_cast<Index>(sample.positions.size()));
+    const Neighbours sample_near = neighbours(sample.faces, sample_at);
+    return choose(sample.faces, sample.positions, sample_at, sample_near,
+                  {sample.deviation, noise.factor, noise.normal_steps}, sample.core, tick);
+}
+
+double mean_square(const Positions& p) {
+    double sum = 0;
+    for (const Vec3& v : p) sum += v.squaredNorm();
+    return p.empty() ? 0 : sum / static_cast<double>(p.size());
+}
+
+/// Of the shift within the surface, so much that the vertices do not get farther from the truth even if it is wrong.
+double safe_share(const WithinSurface& within, const Choice& choice) {
+    const double gained = 0.5 * std::max(0.0, choice.before - choice.after);
+    const double moved = within.noisy ? within.turned_back * within.turned_back : mean_square(within.shift);
+    const double allowed =
+        within.noisy ? gained + 0.9 * std::max(0.0, within.before * within.before - within.after * within.after)
+                     : gained;
+    return moved > allowed ? std::sqrt(allowed / moved) : 1;
+}
+
+Positions shifted(const Positions& p, const Positions& shift, double share) {
+    Positions out = p;
+    for (std::size_t i = 0; i < p.size(); ++i) out[i] += share * shift[i];
+    return out;
+}
+
+}  // namespace
+
+Positions denoise_automatically(const Faces& faces, const Positions& positions, const AutomaticOptions& options,
+                                AutomaticStats& stats, const Tick& tick) {
+    stats = AutomaticStats();
+    tick(0, "Finding neighbours");
+    const Index count = static_cast<Index>(positions.size());
+    const Incidence at = vertex_faces(faces, count);
+    const Neighbours near = neighbours(faces, at);
+    stats.edge = mean_edge_length(faces, positions);
+    tick(0.05, "Looking for impulsive noise");
+    Positions start = without_spikes(faces, positions, at, stats.spikes);
+    if (stats.spikes > 0 && !stand_out(faces, positions, start, near)) {
+        start = positions;
+        stats.spikes = 0;
+    }
+    tick(0.1, "Measuring the noise");
+    SurfaceNoise noise = surface_noise(faces, start, at, near, stats.edge);
+    if (options.deviation) noise.along_normals = *options.deviation;
+    noise.along_normals *= options.strength;
+    stats.deviation = noise.along_normals;
+    if (!(noise.along_normals > rounding * stats.edge)) return start;
+
+    tick(0.2, "Looking for noise within the surface");
+    const WithinSurface within = relax_within_surface(faces, start, near, noise, stats.edge);
+    tick(0.25, "Choosing");
+    const double in_edges = noise.along_normals / stats.edge;
+    Assumed assumed;
+    assumed.factor = caution(in_edges, count);
+    assumed.normal_steps = normal_steps(in_edges);
+    assumed.deviation.assign(count, assumed.factor * noise.along_normals);
+    const Choice choice = choose_on_sample(faces, shifted(start, within.shift, 1), at, near, assumed,
+                                           [&](double f) { tick(0.25 + 0.4 * f, "Choosing"); });
+    const double share = safe_share(within, choice);
+    const Positions relaxed = shifted(start, within.shift, share);
+    const Prepared p = prepared(faces, relaxed, at, near, assumed.normal_steps);
+    const CandidateMaker maker(faces, relaxed, at, near, p.normal, p.weight, assumed.deviation);
+    stats.weights = choice.weights;
+    stats.all_directions = within.noisy;
+    stats.rms_before = std::sqrt(choice.before + within.before * within.before * within.noisy);
+    const double turned = share * within.turned_back;
+    stats.rms_after = std::sqrt(choice.after + (within.noisy ? within.after * within.after + turned * turned
+                                                             : share * share * mean_square(within.shift)));
+    Positions after = maker.blend(choice.weights, [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
+    stats.edge = mean_edge_length(faces, after);
+    return after;
+}
+
+}  // namespace multires

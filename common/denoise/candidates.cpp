@@ -1,0 +1,192 @@
+#include "denoise/candidates.h"
+
+#include "base/parallel.h"
+#include "normals/normal_field.h"
+
+#include <algorithm>
+
+namespace multires {
+namespace {
+
+/// Averaging steps that make the energy of each band local, and how many more of them for the noise's energy, which
+/// varies with the sampling only.
+constexpr std::array<int, 6> local_steps = {4, 6, 9, 15, 25, 40};
+constexpr int noise_steps = 12;
+/// Length of the push that measures the response of a normal field, which is not linear, in samples of the noise.
+constexpr double push = 0.3;
+constexpr double rounding = 1e-4;  ///< differences of normals that coordinates in single precision make
+constexpr int fit_steps = 8;       ///< more would follow the normals further and lose volume
+
+void add_scaled(std::vector<double>& to, double factor, const std::vector<double>& from) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * from[i];
+}
+
+/// Move and response of a low pass: its first two channels.
+Response response_of(const std::vector<double>& low) {
+    Response out(low.size() / 3 * 2);
+    for (std::size_t i = 0; i < low.size() / 3; ++i) {
+        out[2 * i] = low[3 * i];
+        out[2 * i + 1] = low[3 * i + 1];
+    }
+    return out;
+}
+
+}  // namespace
+
+std::vector<Candidate> all_candidates() {
+    std::vector<Candidate> all;
+    const auto add = [&](Family family, std::size_t count) {
+        for (std::size_t i = 0; i < count; ++i) all.push_back({family, static_cast<int>(i)});
+    };
+    add(Family::equal_low_pass, low_pass_steps.size());
+    add(Family::cotangent_low_pass, low_pass_steps.size());
+    add(Family::equal_wiener, wiener_severity.size());
+    add(Family::cotangent_wiener, wiener_severity.size());
+    add(Family::normal_field, field_strength.size());
+    return all;
+}
+
+CandidateMaker::CandidateMaker(const Faces& faces, const Positions& positions, const Incidence& at,
+                               const Neighbours& near, const Array<Vec3>& normal, const std::vector<double>& weight,
+                               const std::vector<double>& deviation)
+    : faces_(faces), positions_(positions), at_(at), near_(near), normal_(normal), weight_(weight),
+      deviation_(deviation), probe_(deviation.size()) {
+    parallel_for(near.rows(), [&](Index v) { probe_[v] = deviation[v] * gaussian(v, 7); });
+}
+
+CandidateMaker::LowPasses CandidateMaker::low_passes(bool cotangents) const {
+    const AlongNormals surface(near_, positions_, normal_, cotangents ? weight_ : std::vector<double>());
+    LowPasses low;
+    std::vector<double> start(3 * probe_.size(), 0);
+    for (std::size_t i = 0; i < probe_.size(); ++i) {
+        start[3 * i + 1] = probe_[i];
+        start[3 * i + 2] = deviation_[i] * gaussian(static_cast<Index>(i), 8);
+    }
+    std::vector<double> h = start;
+    int done = 0;
+    for (const int steps : low_pass_steps) {
+        surface.smooth(h, steps - done);
+        done = steps;
+        low.emplace_back(h.size());
+        for (std::size_t i = 0; i < h.size(); ++i) low.back()[i] = h[i] - start[i];
+    }
+    return low;
+}
+
+std::vector<CandidateMaker::Band> CandidateMaker::bands(const LowPasses& low) const {
+    const std::size_t count = probe_.size();
+    std::vector<Band> all(low.size());
+    for (std::size_t level = 0; level < low.size(); ++level) {
+        Band& band = all[level];
+        band.detail.resize(3 * count);
+        band.energy.resize(3 * count);
+        band.noise.resize(count);
+        parallel_for(near_.rows(), [&](Index v) {
+            const std::size_t i = 3 * static_cast<std::size_t>(v);
+            for (int c = 0; c < 3; ++c)
+                band.detail[i + c] = (level > 0 ? low[level - 1][i + c] : 0) - low[level][i + c];
+            const double d = band.detail[i], b = band.detail[i + 1], other = band.detail[i + 2];
+            band.energy[i] = d * d;
+            band.energy[i + 1] = d * b;
+            band.energy[i + 2] = other * other;  // not b's, or the gains would know the probe
+        });
+        average(near_, band.energy, 3, local_steps[level]);
+        parallel_for(near_.rows(), [&](Index v) { band.noise[v] = band.energy[3 * static_cast<std::size_t>(v) + 2]; });
+        average(near_, band.noise, 1, noise_steps);
+    }
+    return all;
+}
+
+Response CandidateMaker::wiener(const LowPasses& low, const std::vector<Band>& bands, double severity) const {
+    Response out = response_of(low.back());
+    parallel_for(near_.rows(), [&](Index v) {
+        for (const Band& band : bands) {
+            // The gain 1 - noise / energy, and how it answers the probe: energy answers with twice the mean of d b.
+            const double* detail = band.detail.data() + 3 * static_cast<std::size_t>(v);
+            const double* mean = band.energy.data() + 3 * static_cast<std::size_t>(v);
+            const double energy = mean[0], noise = severity * band.noise[v];
+            if (!(energy > noise)) continue;
+            const double gain = 1 - noise / energy, answer = 2 * noise * mean[1] / (energy * energy);
+            out[2 * v] += gain * detail[0];
+            out[2 * v + 1] += gain * detail[1] + answer * detail[0];
+        }
+    });
+    return out;
+}
+
+Positions CandidateMaker::field(const Positions& from, double strength, const std::function<void(double)>& tick) const {
+    if (!graph_) graph_ = face_graph(faces_, at_);
+    NormalFieldOptions options;
+    options.strength = strength;
+    NormalFieldStats stats;
+    const Array<Vec3> normals = denoise_normals(faces_, from, *graph_, options, stats, tick);
+    return stats.noise > rounding ? fit_vertices(faces_, from, at_, normals, fit_steps) : from;
+}
+
+Response CandidateMaker::field_response(double strength, const std::function<void(double)>& tick) const {
+    const Positions after = field(positions_, strength, [&](double f) { tick(f / 2); });
+    Positions pushed = positions_;
+    for (std::size_t i = 0; i < probe_.size(); ++i) pushed[i] += push * probe_[i] * normal_[i];
+    const Positions other = field(pushed, strength, [&](double f) { tick(0.5 + f / 2); });
+    Response out(2 * probe_.size());
+    for (std::size_t i = 0; i < probe_.size(); ++i) {
+        out[2 * i] = normal_[i].dot(after[i] - positions_[i]);
+        out[2 * i + 1] = (normal_[i].dot(other[i] - pushed[i]) - out[2 * i]) / push;
+    }
+    return out;
+}
+
+std::vector<Response> CandidateMaker::responses(const std::function<void(double)>& tick) const {
+    std::vector<Response> all, wieners;
+    for (const bool cotangents : {false, true}) {
+        const LowPasses low = low_passes(cotangents);
+        tick(cotangents ? 0.2 : 0.05);
+        const std::vector<Band> split = bands(low);
+        for (const double severity : wiener_severity) wieners.push_back(wiener(low, split, severity));
+        tick(cotangents ? 0.3 : 0.15);
+        for (const auto& l : low) all.push_back(response_of(l));
+    }
+    std::move(wieners.begin(), wieners.end(), std::back_inserter(all));
+    for (std::size_t k = 0; k < field_strength.size(); ++k)
+        all.push_back(field_response(field_strength[k], [&](double f) {
+            tick(0.3 + 0.7 * (static_cast<double>(k) + f) / field_strength.size());
+        }));
+    return all;
+}
+
+bool CandidateMaker::needs(const Eigen::VectorXd& weights, Family family) const {
+    const std::vector<Candidate> all = all_candidates();
+    for (std::size_t k = 0; k < all.size(); ++k)
+        if (all[k].family == family && weights[k] > 0) return true;
+    return false;
+}
+
+Positions CandidateMaker::blend(const Eigen::VectorXd& weights, const std::function<void(double)>& tick) const {
+    const std::vector<Candidate> all = all_candidates();
+    std::vector<double> height(2 * probe_.size(), 0);
+    for (const bool cotangents : {false, true}) {
+        const Family low_pass = cotangents ? Family::cotangent_low_pass : Family::equal_low_pass;
+        const Family shrunk = cotangents ? Family::cotangent_wiener : Family::equal_wiener;
+        if (!needs(weights, low_pass) && !needs(weights, shrunk)) continue;
+        const LowPasses low = low_passes(cotangents);
+        const std::vector<Band> split = needs(weights, shrunk) ? bands(low) : std::vector<Band>();
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            if (!(weights[k] > 0)) continue;
+            if (all[k].family == low_pass) add_scaled(height, weights[k], response_of(low[all[k].index]));
+            if (all[k].family == shrunk)
+                add_scaled(height, weights[k], wiener(low, split, wiener_severity[all[k].index]));
+        }
+        tick(cotangents ? 0.4 : 0.2);
+    }
+    Positions out = positions_;
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += height[2 * i] * normal_[i];
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (all[k].family != Family::normal_field || !(weights[k] > 0)) continue;
+        const Positions after =
+            field(positions_, field_strength[all[k].index], [&](double f) { tick(0.4 + 0.3 * (all[k].index + f)); });
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] += weights[k] * (after[i] - positions_[i]);
+    }
+    return out;
+}
+
+}  // namespace multires

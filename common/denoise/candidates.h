@@ -1,0 +1,75 @@
+#pragma once
+
+#include "denoise/along_normals.h"
+#include "denoise/risk.h"
+
+#include <array>
+#include <functional>
+#include <optional>
+
+/// The denoised versions of a surface between which the risk decides.
+namespace multires {
+
+/// Linear low passes along the normals: Taubin's steps with equal weights, and with cotangents.
+constexpr std::array<int, 6> low_pass_steps = {1, 2, 5, 12, 30, 80};
+/// Wiener filters: between the low passes, each band shrunk locally by 1 - severity x noise energy / energy.
+constexpr std::array<double, 3> wiener_severity = {1, 1.5, 2.5};
+/// The scale space of the normals (normals/normal_field.h) with these strengths.
+constexpr std::array<double, 2> field_strength = {0.6, 1};
+
+enum class Family { equal_low_pass, cotangent_low_pass, equal_wiener, cotangent_wiener, normal_field };
+
+/// What one candidate is; `index` into the family's array.
+struct Candidate {
+    Family family;
+    int index;
+};
+
+/// All of them, in the order of their weights.
+std::vector<Candidate> all_candidates();
+
+/// A surface that is to be denoised, with what its candidates share.
+class CandidateMaker {
+public:
+    /// @param deviation  #V: of the noise along the normals, mesh units
+    /// @param normal     #V by 3: smoothed vertex normals
+    /// @param weight     #entries: cotangent_weights() of a smoothed surface
+    CandidateMaker(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+                   const Array<Vec3>& normal, const std::vector<double>& weight, const std::vector<double>& deviation);
+
+    const std::vector<double>& probe() const { return probe_; }
+
+    /// Move and response of all candidates.
+    /// @param tick  called with the fraction done; may throw to stop
+    std::vector<Response> responses(const std::function<void(double)>& tick) const;
+
+    /// Where a blend of candidates puts the vertices. Candidates of weight 0 are not made.
+    Positions blend(const Eigen::VectorXd& weights, const std::function<void(double)>& tick) const;
+
+private:
+    using LowPasses = std::vector<std::vector<double>>;  ///< #V by 3 each: moves of the surface and of two noises
+    bool needs(const Eigen::VectorXd& weights, Family family) const;
+    LowPasses low_passes(bool cotangents) const;
+    /// What lies between two low passes, of all three channels.
+    struct Band {
+        std::vector<double> detail;  ///< #V by 3
+        std::vector<double> energy;  ///< #V by 3, local means: of the surface, its product with the probe, of noise
+        std::vector<double> noise;   ///< #V: the last, averaged over more
+    };
+    std::vector<Band> bands(const LowPasses& low) const;
+    Response wiener(const LowPasses& low, const std::vector<Band>& bands, double severity) const;
+    Positions field(const Positions& from, double strength, const std::function<void(double)>& tick) const;
+    Response field_response(double strength, const std::function<void(double)>& tick) const;
+
+    const Faces& faces_;
+    const Positions& positions_;
+    const Incidence& at_;
+    const Neighbours& near_;
+    const Array<Vec3>& normal_;
+    const std::vector<double>& weight_;
+    const std::vector<double>& deviation_;
+    std::vector<double> probe_;
+    mutable std::optional<FaceGraph> graph_;
+};
+
+}  // namespace multires

@@ -1,0 +1,196 @@
+#include "denoise/within_surface.h"
+
+#include "base/parallel.h"
+#include "base/reduce.h"
+#include "denoise/along_normals.h"
+#include "denoise/risk.h"
+#include "measure/vertex_normals.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+constexpr std::array<int, 5> low_passes = {1, 3, 8, 20, 50};  ///< steps
+constexpr std::size_t even_sampling = 3;                      ///< of the low passes: makes the sampling even
+constexpr int turning_steps = 10;
+
+/// A face is bad if its normal is turned from that of its vertices by an angle with less than this cosine, or if its
+/// area is less than this share of its squared sides (0.577 for equal sides, halved).
+struct Bad {
+    double cosine, thin;
+};
+
+Vec3 tangential(const Vec3& v, const Vec3& n) { return v - n * n.dot(v); }
+
+Vec3 to_middle(const Neighbours& near, const Positions& p, Index v) {
+    Vec3 sum = Vec3::Zero();
+    for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) sum += p[near.vertex[k]] - p[v];
+    return near.size(v) > 0 ? Vec3(sum / near.size(v)) : sum;
+}
+
+double mean_square(const Positions& p) {
+    const double sum = chunked_reduce<double>(p.size(), [&](std::size_t begin, std::size_t end) {
+        double part = 0;
+        for (std::size_t i = begin; i < end; ++i) part += p[i].squaredNorm();
+        return part;
+    });
+    return p.empty() ? 0 : sum / static_cast<double>(p.size());
+}
+
+bool is_bad(const Face& f, const Positions& p, const Array<Vec3>& normal, const Bad& bad) {
+    const Vec3 ab = p[f[1]] - p[f[0]], ac = p[f[2]] - p[f[0]], bc = p[f[2]] - p[f[1]];
+    const Vec3 n = ab.cross(ac), wanted = normal[f[0]] + normal[f[1]] + normal[f[2]];
+    const double size = n.norm();
+    return n.dot(wanted) < bad.cosine * size * wanted.norm() ||
+           size < bad.thin * (ab.squaredNorm() + ac.squaredNorm() + bc.squaredNorm());
+}
+
+double folded_share(const Faces& faces, const Positions& p, const Array<Vec3>& normal) {
+    const Index folded = chunked_reduce<Index>(faces.size(), [&](std::size_t begin, std::size_t end) {
+        Index part = 0;
+        for (std::size_t f = begin; f < end; ++f) part += is_bad(faces[f], p, normal, {0.5, 0});
+        return part;
+    });
+    return faces.empty() ? 0 : static_cast<double>(folded) / static_cast<double>(faces.size());
+}
+
+/// Vertices of bad faces move half way to the middle of their neighbours, within the surface, until no face is bad or
+/// for a few steps. Those on a rim stay.
+Positions turned_back(const Faces& faces, Positions p, const Neighbours& near, const Array<Vec3>& normal,
+                      const Bad& bad) {
+    Positions next = p;
+    std::vector<std::uint8_t> moves(p.size());
+    for (int step = 0; step < turning_steps; ++step) {
+        std::fill(moves.begin(), moves.end(), 0);
+        for (const Face& f : faces)
+            if (is_bad(f, p, normal, bad))
+                for (const Index v : f) moves[v] = 1;
+        if (std::find(moves.begin(), moves.end(), 1) == moves.end()) break;
+        parallel_for(near.rows(), [&](Index v) {
+            next[v] = p[v];
+            if (moves[v] && !near.rim[v]) next[v] += 0.5 * tangential(to_middle(near, p, v), normal[v]);
+        });
+        p.swap(next);
+    }
+    return p;
+}
+
+/// The shifts that Taubin's low passes make within the surface.
+std::vector<Positions> smoothed_within(const Positions& p, const Neighbours& near, const Array<Vec3>& normal) {
+    std::vector<Positions> shifts;
+    Positions q = p, next(p.size());
+    int done = 0;
+    for (const int steps : low_passes) {
+        for (; done < steps; ++done)
+            for (const double factor : {0.5, -0.53}) {
+                parallel_for(near.rows(), [&](Index v) {
+                    next[v] = q[v];
+                    if (!near.rim[v]) next[v] += factor * tangential(to_middle(near, q, v), normal[v]);
+                });
+                q.swap(next);
+            }
+        shifts.emplace_back(p.size());
+        parallel_for(near.rows(), [&](Index v) { shifts.back()[v] = q[v] - p[v]; });
+    }
+    return shifts;
+}
+
+double mean_product(const Positions& a, const Positions& b) {
+    return chunked_reduce<double>(a.size(),
+                                  [&](std::size_t begin, std::size_t end) {
+                                      double part = 0;
+                                      for (std::size_t i = begin; i < end; ++i) part += a[i].dot(b[i]);
+                                      return part;
+                                  }) /
+           static_cast<double>(a.size());
+}
+
+/// White noise within the surface, in axes that turn with it.
+Positions noise_within(const Positions& p, const Neighbours& near, const Array<Vec3>& normal, double deviation) {
+    Positions noise(p.size(), Vec3::Zero());
+    parallel_for(near.rows(), [&](Index v) {
+        if (near.size(v) == 0) return;
+        const Vec3 edge = tangential(p[near.vertex[near.offset[v]]] - p[v], normal[v]);
+        const double length = edge.norm();
+        if (!(length > 0)) return;
+        const Vec3 x = edge / length;
+        noise[v] = deviation * (gaussian(v, 5) * x + gaussian(v, 6) * normal[v].cross(x));
+    });
+    return noise;
+}
+
+/// Decides by what the vertices' places and the folded faces say. Noise folds about as many faces of this mesh as it
+/// does once the sampling was made even, and more if the sampling is uneven; faces that are folded by nature spoil this
+/// where it is weak, so the evidence must be stronger where the sampling alone would explain the places.
+void judge(const Faces& faces, const Positions& p, const Positions& more, const Positions& to_even,
+           const Array<Vec3>& normal, const SurfaceNoise& noise, bool weak, WithinSurface& out) {
+    const double irregular = noise.within_surface / noise.along_normals;
+    if (irregular < 0.95 || weak) return;
+    Positions even = p;
+    for (std::size_t i = 0; i < p.size(); ++i) even[i] += to_even[i] + more[i];
+    const double folded = folded_share(faces, p, normal), expected = folded_share(faces, even, normal);
+    out.noisy = folded > 0.001 && folded > (irregular < 1.3 ? 0.6 : 1.2) * expected;
+    out.perhaps = !out.noisy && folded >= 0.3 * expected;
+}
+
+/// The blend of the low passes with the least estimated error.
+void smooth_noise(const Positions& p, const Positions& noise, const Neighbours& near, const Array<Vec3>& normal,
+                  double deviation, const std::vector<Positions>& shift, WithinSurface& out) {
+    Positions probed = p;
+    for (std::size_t i = 0; i < p.size(); ++i) probed[i] += noise[i];
+    const std::vector<Positions> other = smoothed_within(probed, near, normal);
+    const int count = static_cast<int>(shift.size());
+    Risk risk;
+    risk.constant = 2 * deviation * deviation;
+    risk.linear.resize(count);
+    risk.quadratic.resize(count, count);
+    const double excess = mean_square(noise) - risk.constant;
+    for (int k = 0; k < count; ++k) {
+        risk.linear[k] = mean_product(noise, other[k]) - mean_product(noise, shift[k]) + excess;
+        for (int l = 0; l <= k; ++l) risk.quadratic(k, l) = risk.quadratic(l, k) = mean_product(shift[k], shift[l]);
+    }
+    const Eigen::VectorXd t = least_risk(risk);
+    for (int k = 0; k < count; ++k)
+        for (std::size_t i = 0; i < p.size(); ++i) out.shift[i] += t[k] * shift[k][i];
+    out.before = std::sqrt(risk.constant);
+    out.after = std::sqrt(std::max(0.0, risk.at(t)));
+}
+
+}  // namespace
+
+WithinSurface relax_within_surface(const Faces& faces, const Positions& positions, const Neighbours& near,
+                                   const SurfaceNoise& noise, double edge) {
+    WithinSurface out;
+    out.shift = Positions(positions.size(), Vec3::Zero());
+    const double deviation = noise.along_normals;
+    if (!(deviation > 0)) return out;
+    const bool weak = deviation < 0.1 * edge;
+    const Array<Vec3> normal = vertex_normals(faces, taubin(near, positions, weak ? 8 : 20));
+    std::vector<double> h(3 * positions.size(), 0);
+    AlongNormals(near, positions, normal, {}).smooth(h, weak ? 5 : 15);
+    Positions p = positions;
+    for (std::size_t i = 0; i < p.size(); ++i) p[i] += h[3 * i] * normal[i];
+
+    const Positions more = noise_within(p, near, normal, deviation);
+    Positions worse = p;
+    for (std::size_t i = 0; i < p.size(); ++i) worse[i] += more[i];
+    const std::vector<Positions> low = smoothed_within(p, near, normal);
+    judge(faces, p, more, low[even_sampling], normal, noise, deviation < 0.08 * edge, out);
+    if (out.noisy || out.perhaps) {
+        smooth_noise(p, more, near, normal, deviation, low, out);
+    }
+    Positions q = p;
+    for (std::size_t i = 0; i < p.size(); ++i) q[i] += out.shift[i];
+    const Positions r =
+        turned_back(faces, q, near, normal, out.noisy || deviation > 0.15 * edge ? Bad{0.8, 0.0577} : Bad{0.5, 0.03});
+    Positions turning(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) turning[i] = r[i] - q[i];
+    out.turned_back = std::sqrt(mean_square(turning));
+    for (std::size_t i = 0; i < p.size(); ++i) out.shift[i] = r[i] - p[i];
+    return out;
+}
+
+}  // namespace multires

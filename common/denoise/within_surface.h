@@ -1,0 +1,26 @@
+#pragma once
+
+#include "denoise/noise.h"
+
+namespace multires {
+
+/// How vertices are to move within the surface, which removes noise that goes in all directions and turns back the
+/// faces that it folded.
+struct WithinSurface {
+    Positions shift;         ///< #V by 3
+    bool noisy = false;      ///< noise goes in all directions; otherwise only folded faces were turned back
+    bool perhaps = false;    ///< the sampling looks like it, but may be irregular by nature
+    double before = 0;       ///< RMS error within the surface, estimated: 0 unless `noisy` or `perhaps`
+    double after = 0;        ///< the same once all of `shift` is applied, without the turning back
+    double turned_back = 0;  ///< RMS shift that was made for folded faces
+};
+
+/// Whether there is noise within the surface cannot be seen where the sampling is irregular: it is believed if the
+/// places of the vertices are irregular enough, and more noise of the same size would not fold many times as many
+/// faces as are folded. It is then removed by Taubin's low passes within the surface, blended with least estimated risk
+/// (as along the normals, see risk.h).
+/// @param normal  #V by 3, smoothed
+WithinSurface relax_within_surface(const Faces& faces, const Positions& positions, const Neighbours& near,
+                                   const SurfaceNoise& noise, double edge);
+
+}  // namespace multires

@@ -1,0 +1,91 @@
+#include "filters/shape/denoise_automatic.h"
+
+#include "denoise/automatic.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace multires {
+namespace {
+
+/// What each kind of candidate contributed.
+struct Shares {
+    double linear = 0, wiener = 0, field = 0;
+    double kept() const { return std::max(0.0, 1 - linear - wiener - field); }
+};
+
+Shares shares_of(const Eigen::VectorXd& weights) {
+    Shares shares;
+    if (weights.size() == 0) return shares;
+    const std::vector<Candidate> all = all_candidates();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const double t = weights[static_cast<Eigen::Index>(k)];
+        switch (all[k].family) {
+        case Family::equal_low_pass:
+        case Family::cotangent_low_pass:
+            shares.linear += t;
+            break;
+        case Family::equal_wiener:
+        case Family::cotangent_wiener:
+            shares.wiener += t;
+            break;
+        case Family::normal_field:
+            shares.field += t;
+            break;
+        }
+    }
+    return shares;
+}
+
+template <class... Numbers>
+std::string text(const char* format, Numbers... numbers) {
+    char line[256];
+    std::snprintf(line, sizeof line, format, numbers...);
+    return line;
+}
+
+void tell(const AutomaticStats& stats, const Shares& shares, Report& report) {
+    if (stats.spikes > 0)
+        report.say(text("%d vertices were impulses and were set back.", static_cast<int>(stats.spikes)));
+    if (stats.weights.size() == 0) {
+        report.say(stats.spikes > 0 ? "No other noise was found." : "No noise was found; the mesh stays as it is.");
+        return;
+    }
+    report.say(text("Noise of %.3g edge lengths along the normals%s.", stats.deviation / stats.edge,
+                    stats.all_directions ? " and within the surface" : ""));
+    report.say(text("Blend: %.0f %% low pass, %.0f %% local Wiener filter, %.0f %% normal field (piecewise smooth), "
+                    "%.0f %% unchanged.",
+                    100 * shares.linear, 100 * shares.wiener, 100 * shares.field, 100 * shares.kept()));
+    report.say(text("Expected RMS distance from the truth: %.3g edge lengths before, %.3g after.",
+                    stats.rms_before / stats.edge, stats.rms_after / stats.edge));
+}
+
+}  // namespace
+
+Positions by_automatic(const Layer& layer, const DenoiseOptions& o, double given, const Session& session,
+                       Report& report) {
+    AutomaticStats stats;
+    Positions after = layer.mesh.positions;
+    if (o.strength > 0) {
+        AutomaticOptions options;
+        options.strength = o.strength;
+        if (o.unit != ThresholdUnit::automatic) options.deviation = given;
+        const Progress part = session.progress.part(0, 0.97);
+        after = denoise_automatically(layer.mesh.faces, layer.mesh.positions, options, stats,
+                                      [&](double f, const char* what) { part.report(f, what); });
+    }
+    const Shares shares = shares_of(stats.weights);
+    report.add("noise", o.strength > 0 ? stats.deviation / o.strength : 0.0, "mesh units");
+    report.add("noise_in_edges", o.strength > 0 && stats.edge > 0 ? stats.deviation / o.strength / stats.edge : 0.0);
+    report.add("noise_in_all_directions", stats.all_directions);
+    report.add("spikes_removed", static_cast<int>(stats.spikes));
+    report.add("estimated_rms_before", stats.rms_before, "mesh units");
+    report.add("estimated_rms_after", stats.rms_after, "mesh units");
+    report.add("share_low_pass", shares.linear);
+    report.add("share_wiener", shares.wiener);
+    report.add("share_normal_field", shares.field);
+    if (o.strength > 0) tell(stats, shares, report);
+    return after;
+}
+
+}  // namespace multires

@@ -1,0 +1,235 @@
+#include "filters/shape/denoise.h"
+
+#include "denoise/automatic.h"
+#include "denoise_fixtures.h"
+
+namespace multires {
+
+using namespace fixtures;
+
+namespace {
+
+/// Noise beside that of NoiseKind.
+enum class Model { along_normals, all_directions, impulsive, along_axis, quantised };
+
+constexpr Model models[] = {Model::along_normals, Model::all_directions, Model::impulsive, Model::along_axis,
+                            Model::quantised};
+
+/// @param deviation  mean edge lengths; quantised: of the coordinates' rounding errors
+Mesh noisy(const Mesh& truth, Model model, double deviation, std::uint64_t seed = 1) {
+    Mesh mesh = truth;
+    if (model == Model::along_normals) mesh.positions = with_noise(truth, deviation, NoiseKind::along_normals, seed);
+    if (model == Model::all_directions) mesh.positions = with_noise(truth, deviation, NoiseKind::all_directions, seed);
+    if (model == Model::impulsive) mesh.positions = with_noise(truth, deviation, NoiseKind::impulsive, seed);
+    const double size = deviation * mean_edge_length(truth.faces, truth.positions);
+    shapes::Random random(seed);
+    const Vec3 axis = Vec3(0.36, 0.48, 0.8);
+    const double step = size * std::sqrt(12.0), offset = 0.37;
+    for (Vec3& p : mesh.positions) {
+        if (model == Model::along_axis) p += size * gaussian(random) * axis;
+        if (model == Model::quantised)
+            for (int k = 0; k < 3; ++k) p[k] = (std::round(p[k] / step + offset) - offset) * step;
+    }
+    return mesh;
+}
+
+struct Shape {
+    const char* name;
+    Mesh mesh;
+};
+
+std::vector<Shape> clean_shapes() {
+    shapes::BandedSphereOptions waves;
+    waves.vertices = 3000;
+    waves.low_amplitude = 0.06;
+    waves.high_degree = 12;
+    waves.high_amplitude = 0.015;
+    return {{"sphere", shapes::irregular_sphere(3000)},
+            {"block", shapes::block(11)},
+            {"waves", shapes::banded_sphere(waves).mesh},
+            {"scan", shapes::scan(3000)},
+            {"torus", shapes::torus(80, 36)},
+            {"cylinder", shapes::open_cylinder(80, 30)},
+            {"terrain", shapes::terrain(54).mesh}};
+}
+
+Result run(const Layer& layer, const DenoiseOptions& options = {}) {
+    Session session;
+    return denoise(layer, options, session);
+}
+
+double edge_of(const Mesh& mesh) { return mean_edge_length(mesh.faces, mesh.positions); }
+
+double rms_distance(const Positions& a, const Positions& b) { return displacement(a, b).rms; }
+
+}  // namespace
+
+TEST(AutomaticDenoise, IsNeverWorseThanDoingNothing) {
+    for (const Shape& shape : clean_shapes())
+        for (const Model model : models)
+            for (const double deviation : {0.05, 0.2, 0.5}) {
+                SCOPED_TRACE(std::string(shape.name) + ", noise model " + std::to_string(static_cast<int>(model)) +
+                             ", " + std::to_string(deviation));
+                const Mesh mesh = noisy(shape.mesh, model, deviation);
+                const Positions after = denoised(mesh);
+                const auto angle = [&](const Positions& p) {
+                    return mean_normal_angle(mesh.faces, p, shape.mesh.positions);
+                };
+                // Weak impulses at one vertex in seven are hardly told from texture.
+                const double allowed = model == Model::impulsive && deviation < 0.1 ? 1.05 : 1;
+                EXPECT_LE(angle(after), allowed * angle(mesh.positions));
+                EXPECT_LE(rms_distance(after, shape.mesh.positions),
+                          rms_distance(mesh.positions, shape.mesh.positions));
+            }
+}
+
+TEST(AutomaticDenoise, LeavesMostNoiseOfSmoothShapesBehind) {
+    // Share of the angle and of the distance that may remain: 1.3 times what was measured.
+    struct Limit {
+        const char* name;
+        Mesh mesh;
+        double angle, rms;
+    };
+    const Limit limits[] = {{"sphere", shapes::irregular_sphere(4000), 0.16, 0.42},
+                            {"block", shapes::block(13), 0.25, 0.6},
+                            {"scan", shapes::scan(4000), 0.35, 0.6}};
+    for (const Limit& limit : limits)
+        for (const double deviation : {0.1, 0.2, 0.3}) {
+            SCOPED_TRACE(limit.name + std::string(", ") + std::to_string(deviation));
+            const Mesh mesh = noisy(limit.mesh, Model::along_normals, deviation);
+            const Error before = error_of(limit.mesh, mesh.positions), after = error_of(limit.mesh, denoised(mesh));
+            EXPECT_LE(after.angle, limit.angle * before.angle);
+            EXPECT_LE(after.rms, limit.rms * before.rms);
+        }
+}
+
+TEST(AutomaticDenoise, KnowsTheNoise) {
+    for (const Shape& shape : clean_shapes())
+        for (const double deviation : {0.03, 0.1, 0.3, 0.5}) {
+            SCOPED_TRACE(std::string(shape.name) + ", " + std::to_string(deviation));
+            const Mesh mesh = noisy(shape.mesh, Model::along_normals, deviation);
+            const double found = number(run(layer_of(mesh)).report, "noise") / edge_of(shape.mesh);
+            EXPECT_NEAR(found / deviation, 1, deviation < 0.05 ? 0.25 : 0.15);
+        }
+}
+
+TEST(AutomaticDenoise, ForeseesTheDistanceFromTheTruth) {
+    for (const Shape& shape : clean_shapes())
+        for (const double deviation : {0.1, 0.3}) {
+            SCOPED_TRACE(std::string(shape.name) + ", " + std::to_string(deviation));
+            const Mesh mesh = noisy(shape.mesh, Model::along_normals, deviation);
+            const Result result = run(layer_of(mesh));
+            // The estimate is a difference of squares: its error goes with the noise that was there. Errors across
+            // creases, where the normal field moves vertices sideways, it does not see.
+            const auto squared = [&](const char* key) { return std::pow(number(result.report, key), 2); };
+            const double noise = std::pow(deviation * edge_of(shape.mesh), 2);
+            EXPECT_NEAR(squared("estimated_rms_before") / noise, 1, 0.3);
+            EXPECT_NEAR(squared("estimated_rms_after") / noise,
+                        std::pow(rms_distance(*result.positions, shape.mesh.positions), 2) / noise, 0.2);
+        }
+}
+
+TEST(AutomaticDenoise, KeepsTheDetailOfMeshesWithoutNoise) {
+    for (const Shape& shape : clean_shapes())
+        EXPECT_LE(rms_distance(denoised(shape.mesh), shape.mesh.positions), 0.02 * edge_of(shape.mesh)) << shape.name;
+}
+
+TEST(AutomaticDenoise, TellsCreasesFromOrganicShapes) {
+    const Report part = run(layer_of(noisy(shapes::block(13), Model::along_normals, 0.1))).report;
+    EXPECT_GT(number(part, "share_normal_field"), 0.8);
+    const Report scan = run(layer_of(noisy(shapes::scan(4000), Model::along_normals, 0.1))).report;
+    EXPECT_LT(number(scan, "share_normal_field"), 0.5);
+}
+
+TEST(AutomaticDenoise, FindsNoiseWithinTheSurface) {
+    for (const Shape& shape : clean_shapes()) {
+        const auto within = [&](Model model) {
+            const Mesh mesh = noisy(shape.mesh, model, 0.3);
+            return value<bool>(run(layer_of(mesh)).report, "noise_in_all_directions");
+        };
+        EXPECT_TRUE(within(Model::all_directions)) << shape.name;
+        EXPECT_FALSE(within(Model::along_normals)) << shape.name;
+    }
+}
+
+TEST(AutomaticDenoise, ChangesNoBitAtStrengthZero) {
+    const Mesh mesh = noisy(shapes::irregular_sphere(1000), Model::along_normals, 0.2);
+    DenoiseOptions options;
+    options.strength = 0;
+    EXPECT_EQ(denoised(mesh, options), mesh.positions);
+}
+
+TEST(AutomaticDenoise, GivesTheSameBitsOnPatchesOfALargeMesh) {
+    const Mesh mesh = noisy(shapes::irregular_sphere(26000), Model::along_normals, 0.2);
+    Positions first;
+    for (const int threads : {1, 3}) {
+        const Threads scope(threads);
+        const Positions p = denoised(mesh);
+        if (threads == 1)
+            first = p;
+        else
+            EXPECT_EQ(p, first);
+    }
+}
+
+TEST(AutomaticDenoise, StopsWhenTold) {
+    const Layer layer = layer_of(noisy(shapes::irregular_sphere(1000), Model::along_normals, 0.2));
+    int calls = 0;
+    Session counting;
+    counting.progress = Progress([&](int, const char*) { return ++calls > 0; });
+    denoise(layer, {}, counting);
+    ASSERT_GT(calls, 20);
+    for (const int last : {1, calls / 3, calls - 1}) {
+        Session session;
+        int made = 0;
+        session.progress = Progress([&](int, const char*) { return ++made < last; });
+        EXPECT_THROW(denoise(layer, {}, session), Cancelled);
+        EXPECT_EQ(made, last);
+    }
+}
+
+TEST(Risk, OfALinearFilterIsItsMeanSquareError) {
+    // The candidate takes away the part g of every height: its error is (1 - g) noise - g shape.
+    const Mesh mesh = shapes::plane(60);
+    const Incidence at = vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()));
+    const Neighbours near = neighbours(mesh.faces, at);
+    const std::size_t count = mesh.positions.size();
+    const double s = 0.3;
+    std::vector<double> deviation(count, s), probe(count);
+    std::vector<Response> candidates(2, Response(2 * count));
+    double truth = 0;
+    const Eigen::Vector2d t(0.2, 0.3);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double shape = mesh.positions[i].x(), noise = s * gaussian(static_cast<Index>(i), 11);
+        probe[i] = s * gaussian(static_cast<Index>(i), 12);
+        for (int k = 0; k < 2; ++k) {
+            candidates[k][2 * i] = -(k + 1) * 0.5 * (shape + noise);
+            candidates[k][2 * i + 1] = -(k + 1) * 0.5 * probe[i];
+        }
+        const double gain = 1 - 0.5 * t[0] - t[1];
+        truth += std::pow(gain * (shape + noise) - shape, 2) / static_cast<double>(count);
+    }
+    const Risks r = risks(near, candidates, deviation, probe, std::vector<std::uint8_t>(count, 1));
+    EXPECT_NEAR(r.heights.at(t), truth, 0.05 * s * s);
+    EXPECT_NEAR(r.heights.constant, s * s, 1e-12);
+    EXPECT_NEAR(r.edges.constant, 2 * s * s, 1e-12);
+}
+
+TEST(Risk, LeastIsOnTheSimplexAndNoVertexOfItIsBetter) {
+    Risk risk;
+    risk.constant = 1;
+    risk.linear = Eigen::Vector3d(-0.9, -0.5, 0.2);
+    risk.quadratic = Eigen::Vector3d(1.1, 0.4, 0.3).asDiagonal();
+    const Eigen::VectorXd t = least_risk(risk);
+    EXPECT_GE(t.minCoeff(), 0);
+    EXPECT_LE(t.sum(), 1 + 1e-12);
+    // By hand: with t_0 + t_1 = 1 the slopes -0.9 + 1.1 t_0 and -0.5 + 0.4 t_1 are equal.
+    EXPECT_NEAR(t[0], 0.8 / 1.5, 1e-6);
+    EXPECT_NEAR(t[1], 0.7 / 1.5, 1e-6);
+    EXPECT_EQ(t[2], 0);
+    // Nothing to gain: the input stays as it is.
+    risk.linear = Eigen::Vector3d(0.1, 0.2, 0.3);
+    EXPECT_EQ(least_risk(risk).norm(), 0);
+}
+
+}  // namespace multires
