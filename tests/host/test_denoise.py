@@ -7,8 +7,8 @@ import pytest
 from test_pymeshlab import Error, differences, new_document, rich_sphere, snapshot
 
 DENOISE = "apply_coord_multires_denoise"
-REPORT = {"noise", "spikes_removed", "normal_noise", "normal_noise_after", "detail_per_level", "noise_per_level",
-          "share_removed", "largest_displacement", "rms_displacement", "volume_before", "volume_after", "area_before",
+REPORT = {"noise", "noise_in_edges", "noise_in_all_directions", "spikes_removed", "estimated_rms_before",
+          "estimated_rms_after", "share_low_pass", "share_wiener", "share_normal_field", "largest_displacement", "rms_displacement", "volume_before", "volume_after", "area_before",
           "area_after", "centroid_shift", "flipped_faces"}  # fmt: skip
 
 
@@ -58,6 +58,14 @@ def test_report_says_what_was_found_and_done():
     assert set(report) >= REPORT
     edge = np.linalg.norm(truth[f[:, 0]] - truth[f[:, 1]], axis=1).mean()
     assert report["noise"] == pytest.approx(0.2 * edge, rel=0.25)
+    assert not report["noise_in_all_directions"]
+    after = np.sqrt(((np.linalg.norm(mesh.vertex_matrix(), axis=1) - 1) ** 2).mean())
+    assert report["estimated_rms_after"] == pytest.approx(after, abs=0.1 * report["estimated_rms_before"])
+
+
+def test_the_normal_field_reports_its_levels():
+    ms, _ = noisy_sphere()
+    report = ms.apply_filter(DENOISE, method="normal field")
     assert report["normal_noise_after"] < 0.2 * report["normal_noise"]
     assert len(report["detail_per_level"]) == len(report["noise_per_level"]) == len(report["share_removed"]) == 4
     assert report["flipped_faces"] == 0

@@ -34,8 +34,8 @@ struct DenoiseOptions {
     /// Length of noise, >= 0: thresholding drops details up to it; the others take it for the
     /// standard deviation.
     double threshold = 0;
-    double strength = 1;   ///< >= 0; factor for the noise that is assumed, unless a threshold is given; 0: none
-    int finest_level = 0;  ///< thresholding: levels finest_level .. coarsest_level - 1
+    double strength = 1;       ///< >= 0; factor for the noise that is assumed, unless a threshold is given; 0: none
+    int finest_level = 0;      ///< thresholding: levels finest_level .. coarsest_level - 1
     int coarsest_level = 5;    ///< (Roy: the five finest)
     bool per_level = true;     ///< thresholding, automatic: a threshold for each level; otherwise that of the finest
     bool normal_only = false;  ///< thresholding: only the part of a detail along the normal
@@ -48,9 +48,10 @@ struct DenoiseOptions {
     PyramidOptions pyramid = fine_levels();        ///< for thresholding
 };
 
-/// Standard deviation of the noise along the normals, mesh units, for all methods but the automatic: median of the second-order differences over the edges
-/// (Guskov et al. 1999, section 2.1), so that sharp edges hardly count. Somewhat low where noise is as strong as the
-/// triangles are large, and an upper estimate for meshes whose shape is as fine as their triangles.
+/// Standard deviation of the noise along the normals, mesh units, for all methods but the automatic: median of the
+/// second-order differences over the edges (Guskov et al. 1999, section 2.1), so that sharp edges hardly count.
+/// Somewhat low where noise is as strong as the triangles are large, and an upper estimate for meshes whose shape is as
+/// fine as their triangles.
 double noise_deviation(const Mesh& mesh);
 
 /// Removes noise and keeps what is shape.

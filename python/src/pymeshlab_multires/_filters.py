@@ -258,11 +258,25 @@ class DenoiseReport(Movement, Result):
     """What denoise() returns."""
 
     noise: float
-    """Deviation of the noise found, from second differences (mesh units)."""
-    noise_per_level: Array
-    """Noise in the details of each level, finest first: of the normals, or with thresholding in mesh units."""
+    """Standard deviation of the noise found, along the normals (mesh units)."""
+    noise_in_edges: float | None = None
+    """Automatic: the same in mean edge lengths."""
+    noise_in_all_directions: bool | None = None
+    """Automatic: the noise was found within the surface too."""
     spikes_removed: int | None = None
-    """Normal field: vertices found to be impulses and set back first."""
+    """Vertices found to be impulses and set back first."""
+    estimated_rms_before: float | None = None
+    """Automatic: expected RMS distance of the vertices from the truth (mesh units)."""
+    estimated_rms_after: float | None = None
+    """Automatic: the same of the result (mesh units)."""
+    share_low_pass: float | None = None
+    """Automatic: weight of the low passes in the result."""
+    share_wiener: float | None = None
+    """Automatic: weight of the local Wiener filters."""
+    share_normal_field: float | None = None
+    """Automatic: weight of the normal field."""
+    noise_per_level: Array | None = None
+    """Noise in the details of each level, finest first: of the normals, or with thresholding in mesh units."""
     normal_noise: float | None = None
     """Normal field: median difference of neighbouring unit normals."""
     normal_noise_after: float | None = None
@@ -692,26 +706,28 @@ def unsharp(
 
 @also_flat(Pyramid)
 def denoise(
-    ms: MeshSet, *, method: Literal["normal field", "soft threshold", "hard threshold"] = "normal field",
+    ms: MeshSet, *, method: Literal["normal field", "soft threshold", "hard threshold", "automatic"] = "automatic",
     threshold_unit: Literal["automatic", "mesh units", "percent"] = "automatic", threshold: float = 0.0,
     strength: float = 1.0, keep_volume: bool = False, confidence: bool = False, selected: bool | None = None,
     quality_mask: bool = False, relative_to: RelativeTo = "current shape", finest_level: int = 0,
     coarsest_level: int = 5, per_level: bool = True, normal_only: bool = False, cycle_spins: int = 1,
     pyramid: Pyramid | None = None,
 ) -> DenoiseReport:
-    """Removes noise and keeps shape, without a parameter to set.
+    """Removes noise and keeps shape, without a parameter to set: the noise is measured, and what is done is chosen by
+    the estimated distance from the truth.
 
     The filter apply_coord_multires_denoise, on the current mesh; the mesh is unchanged if it fails.
 
     Args:
         ms: the document.
-        method: Normal field: denoises the face normals over several scales and moves the vertices to fit; tunes itself
-            and keeps sharp edges. Soft threshold: shrinks the pyramid's details (Roy). Hard threshold: drops small
-            details and leaves large ones.
+        method: Automatic: measures the noise and blends low passes, local Wiener filters, the normal field and the mesh
+            as it is so that the result is expected to be nearest to the truth. Normal field: denoises the face normals
+            over several scales and moves the vertices to fit; tunes itself and keeps sharp edges. Soft threshold:
+            shrinks the pyramid's details (Roy). Hard threshold: drops small details and leaves large ones.
         threshold_unit: Automatic: from the noise found in the mesh. Mesh units, or percent of the diagonal of the
             bounding box: the value below.
-        threshold: Size of the noise if the threshold is not automatic: its standard deviation for the normal field, the
-            length up to which details are dropped for the others. A number, at least 0.
+        threshold: Size of the noise if the threshold is not automatic: its standard deviation for automatic and normal
+            field, the length up to which details are dropped for the others. A number, at least 0.
         strength: Factor for the noise: 1 removes the noise found, 2 takes twice as much for noise, 0 changes nothing.
             The threshold methods use it if their threshold is automatic. A number, 0 to 4.
         keep_volume: Shift the surface along its normals until the volume is that of the input.
@@ -741,6 +757,7 @@ def denoise(
             Technologies 2003.
         Sun, Rosin, Martin, Langbein, "Fast and Effective Feature-Preserving Mesh Denoising", IEEE TVCG 2007.
         Zheng, Fu, Au, Tai, "Bilateral Normal Filtering for Mesh Denoising", IEEE TVCG 2011.
+        Ramani, Blu, Unser, "Monte-Carlo SURE", IEEE Transactions on Image Processing 2008.
     """
     return apply(DenoiseReport, "apply_coord_multires_denoise", **locals())
 
