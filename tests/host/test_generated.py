@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pymeshlab
 import pytest
-from conftest import BUILD, FILTER_IDS, FILTERS, citations, load_plugins
+from conftest import BUILD, FILTER_IDS, FILTERS, citations, load_plugins, wants_another_layer
 
 ROOT = BUILD.parents[1]
 sys.path.insert(0, str(ROOT / "tools"))
@@ -24,13 +24,16 @@ MORE = {
     "apply_attributes_multires_band": [{"quality": True}],
     "apply_attributes_multires_denoise": [{"quality": True, "custom": True}],
     "apply_coord_multires_denoise": [{"method": "soft threshold"}, {"method": "hard threshold", "keep_volume": True}],
+    "compute_scalar_multires_difference_per_vertex": [{"wavelength": 0.2}],
     "generate_multires_texcoord": [{"projection": "planar"}, {"projection": "existing"}],
 }  # fmt: skip
 
 
-def terrain(meshes):
+def terrain(meshes, another_layer=False):
     """A document with a mesh that has every kind of attribute."""
     ms = pymeshlab.MeshSet(verbose=False)
+    if another_layer:
+        ms.load_new_mesh(str(meshes / "disk.ply"))
     ms.load_new_mesh(str(meshes / "terrain.ply"))
     ms.current_mesh().add_vertex_custom_scalar_attribute(ms.current_mesh().vertex_matrix()[:, 2], "height")
     ms.compute_texcoord_transfer_vertex_to_wedge()
@@ -130,7 +133,8 @@ def declared(row, key):
 def test_reports_hold_what_the_table_says(row, meshes):
     seen = set()
     for more in [{}, *MORE.get(row["python_name"], [])]:
-        report = terrain(meshes).apply_filter(row["python_name"], **more)
+        ms = terrain(meshes, wants_another_layer(row["python_name"]))
+        report = ms.apply_filter(row["python_name"], **more)
         for key, value in report.items():
             entry = declared(row, key)
             assert entry, f"{key} is returned and not declared"
