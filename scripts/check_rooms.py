@@ -16,9 +16,10 @@ COMMON = {
     **{room: ["base", "mesh"] for room in FLOOR},
     "solvers": ["base", "mesh", "operators", "hierarchy"],
     "schemes": ["base", "mesh", "operators", "hierarchy"],
+    "bands": ["base", "mesh", "measure", "solvers"],
     "pyramid": ["base", "mesh", *FLOOR, "solvers", "schemes"],
     "denoise": ["base", "mesh", *FLOOR],
-    "filters": ["base", "mesh", *FLOOR, "solvers", "schemes", "pyramid", "denoise"],
+    "filters": ["base", "mesh", *FLOOR, "solvers", "bands", "schemes", "pyramid", "denoise"],
 }
 PLUGINS = {
     "shared": list(COMMON),

@@ -23,6 +23,8 @@ EXAMPLES = {
     "denoise": ("Removes noise, keeps shape and edges.", [("apply_coord_multires_denoise", {})]),
     "smooth": ("Removes all structure finer than 4 % of the box diagonal.",
                [("apply_coord_multires_low_pass", {**PERCENT, "cutoff": 4})]),
+    "smooth-calibrated": ("Leaves exactly half of waves of 4 % of the box diagonal: the spline filter of ISO 16610-22.",
+                          [("apply_coord_multires_low_pass", {**PERCENT, "cutoff": 4, "method": "spline"})]),
     "remove-band": ("Removes structure of 2 to 6 % and leaves finer engraving and the coarse shape.",
                     [("apply_coord_multires_stop_band", {**PERCENT, "finest": 2, "coarsest": 6})]),
     "enhance": ("Doubles structure of 2 to 8 %: brings out worn reliefs.",

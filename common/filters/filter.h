@@ -43,6 +43,7 @@ struct Inputs {
 };
 
 class Original;
+class Spline;
 
 /// The part of a call that outlives it: progress, and what travels with the mesh.
 struct Session {
@@ -50,6 +51,8 @@ struct Session {
     /// The pyramid kept with the layer by an earlier call of any of our plugins; may be null or stale (its content
     /// hash decides). A filter that builds one puts it here; the host keeps it with the mesh if the call succeeds.
     std::shared_ptr<const Pyramid> pyramid;
+    /// The systems of the calibrated filters (bands/spline.h), kept in the same way.
+    std::shared_ptr<const Spline> spline;
     /// The shape the layer had before an earlier call of any of our plugins first moved it; null if none did. The host
     /// keeps it up to date (see original.h).
     std::shared_ptr<const Original> original;

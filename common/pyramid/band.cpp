@@ -71,19 +71,6 @@ double mean_step(double a, double b, double edge, double soft) {
     return (ramp(b - edge, soft) - ramp(a - edge, soft)) / (b - a);
 }
 
-void check(const Band& band, double diagonal) {
-    const bool vertices = band.unit == Unit::vertices;
-    if (!(std::isfinite(band.finest) && std::isfinite(band.coarsest)))
-        throw InputError("finest and coarsest must be numbers");
-    if (!(band.softness >= 0 && std::isfinite(band.softness)))
-        throw InputError("softness must be a number of octaves, 0 or more");
-    if (band.finest < 0 || band.coarsest < 0) throw InputError("finest and coarsest must not be negative");
-    if (vertices ? band.finest <= band.coarsest : band.finest >= band.coarsest)
-        throw InputError(vertices ? "finest must be more vertices than coarsest"
-                                  : "finest must be less than coarsest (level 0 and short waves are the finest)");
-    if (band.unit == Unit::wavelength_percent && !(diagonal > 0)) throw InputError("the bounding box has no size");
-}
-
 /// The layer's finest wavelength in a unit of wavelength; others have no use for it.
 double finest_wavelength(const Layer& layer, Unit unit) {
     if (unit != Unit::wavelength && unit != Unit::wavelength_percent) return 0;
@@ -116,6 +103,23 @@ double times_finest(const Layer& layer, double most, double share) {
 }
 
 }  // namespace
+
+void check(const Band& band, double diagonal) {
+    const bool vertices = band.unit == Unit::vertices;
+    if (!(std::isfinite(band.finest) && std::isfinite(band.coarsest)))
+        throw InputError("finest and coarsest must be numbers");
+    if (!(band.softness >= 0 && std::isfinite(band.softness)))
+        throw InputError("softness must be a number of octaves, 0 or more");
+    if (band.finest < 0 || band.coarsest < 0) throw InputError("finest and coarsest must not be negative");
+    if (vertices ? band.finest <= band.coarsest : band.finest >= band.coarsest)
+        throw InputError(vertices ? "finest must be more vertices than coarsest"
+                                  : "finest must be less than coarsest (level 0 and short waves are the finest)");
+    if (band.unit == Unit::wavelength_percent && !(diagonal > 0)) throw InputError("the bounding box has no size");
+}
+
+double wavelength_of(const Pyramid& pyramid, Unit unit, double limit) {
+    return std::exp2(Axis(pyramid, unit, 0).octave(limit));
+}
 
 Band default_band(const Layer& layer, Unit unit) {
     Band band;

@@ -21,6 +21,12 @@ struct Band {
     double softness = 0;
 };
 
+/// @throws InputError if the limits are not finite, out of range or out of order, naming them
+void check(const Band& band, double box_diagonal);
+
+/// Mesh units of a limit in levels or numbers of vertices.
+double wavelength_of(const Pyramid& pyramid, Unit unit, double limit);
+
 /// Share of each level's details that lies in the band, in [0, 1].
 ///
 /// Level k holds the waves between its own wavelength and that of level k+1; a level that the edge of the band cuts

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace multires {
 namespace {
@@ -14,10 +15,14 @@ namespace {
 struct FaceWeights {
     std::array<double, 3> cotangent;  ///< halved
     double third;                     ///< of the area; negative: the face does not count
+    double spread;                    ///< mass between two of its corners
 };
 
+/// Of the linear elements' masses in those of a face, see Stiffness::mass_weight. Slivers have no limit themselves.
+constexpr double least_share = -2, most_share = 1;
+
 FaceWeights face_weights(const Mesh& mesh, const Face& f, double least_area) {
-    FaceWeights none{{0, 0, 0}, -1};
+    FaceWeights none{{0, 0, 0}, -1, 0};
     if (f[0] == f[1] || f[1] == f[2] || f[2] == f[0]) return none;
     const Vec3 &a = mesh.positions[f[0]], &b = mesh.positions[f[1]], &c = mesh.positions[f[2]];
     const Vec3 ab = b - a, bc = c - b, ca = a - c;
@@ -28,7 +33,13 @@ FaceWeights face_weights(const Mesh& mesh, const Face& f, double least_area) {
     const double twice = u.cross(w).norm();
     const double least = least_area * (u.squaredNorm() + v.squaredNorm() + w.squaredNorm());
     const double scale = 0.5 / std::max(twice, least);
-    return {{-w.dot(u) * scale, -u.dot(v) * scale, -v.dot(w) * scale}, twice * longest / 6};
+    FaceWeights face{{-w.dot(u) * scale, -u.dot(v) * scale, -v.dot(w) * scale}, twice * longest / 6, 0};
+    const std::array<double, 3> square = {v.squaredNorm(), w.squaredNorm(), u.squaredNorm()};
+    double fourth = 0;
+    for (int k = 0; k < 3; ++k) fourth += face.cotangent[k] * square[k] * square[k];
+    const double share = 1.5 * fourth / (std::max(twice, least) * (square[0] + square[1] + square[2]));
+    face.spread = (std::clamp(share, least_share, most_share) + 0.5) / 2 * face.third / 4;
+    return face;
 }
 
 /// The faces around each vertex that count, in order: 3 x face + corner.
@@ -54,19 +65,25 @@ Corners corners_of(const Mesh& mesh, const Array<FaceWeights>& weights) {
 /// The entries of one row with the two edges of each of its faces, in order of the faces, equal columns joined.
 class RowMaker {
 public:
+    struct Entry {
+        Index column;
+        double weight, mass;
+    };
+
     RowMaker(const Mesh& mesh, const Array<FaceWeights>& weights, const Corners& corners)
         : mesh_(mesh), weights_(weights), corners_(corners) {}
 
-    const std::vector<std::pair<Index, double>>& row(Index v) {
+    const std::vector<Entry>& row(Index v) {
         entries_.clear();
         for (Index k = corners_.offset[v]; k < corners_.offset[v + 1]; ++k) {
             const Index face = corners_.corner[k] / 3, at = corners_.corner[k] % 3;
             const Index next = (at + 1) % 3, last = (at + 2) % 3;
-            entries_.emplace_back(mesh_.faces[face][next], weights_[face].cotangent[last]);
-            entries_.emplace_back(mesh_.faces[face][last], weights_[face].cotangent[next]);
+            const double mass = weights_[face].spread;
+            entries_.push_back({mesh_.faces[face][next], weights_[face].cotangent[last], mass});
+            entries_.push_back({mesh_.faces[face][last], weights_[face].cotangent[next], mass});
         }
         // Stable, so that both rows of an edge add up its faces in the same order.
-        const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
+        const auto less = [](const auto& a, const auto& b) { return a.column < b.column; };
         if (entries_.size() < 64) {
             insertion_sort();
         } else {
@@ -74,8 +91,9 @@ public:
         }
         std::size_t kept = 0;
         for (std::size_t k = 0; k < entries_.size(); ++k) {
-            if (kept > 0 && entries_[kept - 1].first == entries_[k].first) {
-                entries_[kept - 1].second += entries_[k].second;
+            if (kept > 0 && entries_[kept - 1].column == entries_[k].column) {
+                entries_[kept - 1].weight += entries_[k].weight;
+                entries_[kept - 1].mass += entries_[k].mass;
             } else {
                 entries_[kept++] = entries_[k];
             }
@@ -87,9 +105,9 @@ public:
 private:
     void insertion_sort() {
         for (std::size_t k = 1; k < entries_.size(); ++k) {
-            const auto e = entries_[k];
+            const Entry e = entries_[k];
             std::size_t at = k;
-            for (; at > 0 && entries_[at - 1].first > e.first; --at) entries_[at] = entries_[at - 1];
+            for (; at > 0 && entries_[at - 1].column > e.column; --at) entries_[at] = entries_[at - 1];
             entries_[at] = e;
         }
     }
@@ -97,7 +115,7 @@ private:
     const Mesh& mesh_;
     const Array<FaceWeights>& weights_;
     const Corners& corners_;
-    std::vector<std::pair<Index, double>> entries_;
+    std::vector<Entry> entries_;
 };
 
 }  // namespace
@@ -114,6 +132,7 @@ Stiffness stiffness(const Mesh& mesh, const StiffnessOptions& options) {
     // Rows are written with a stride of two entries a corner first, an upper bound, and moved together.
     Array<Index> column(2 * corners.corner.size());
     Array<double> weight(2 * corners.corner.size());
+    Array<double> mass_weight(options.spread_mass ? weight.size() : 0);
     parallel_chunks(n, 4096, [&](Index begin, Index end) {
         RowMaker maker(mesh, weights, corners);
         for (Index v = begin; v < end; ++v) {
@@ -122,7 +141,10 @@ Stiffness stiffness(const Mesh& mesh, const StiffnessOptions& options) {
                 mass += weights[corners.corner[k] / 3].third;
             c.mass[v] = mass;
             std::size_t at = 2 * static_cast<std::size_t>(corners.offset[v]);
-            for (const auto& [j, w] : maker.row(v)) column[at] = j, weight[at++] = w;
+            for (const RowMaker::Entry& e : maker.row(v)) {
+                if (options.spread_mass) mass_weight[at] = e.mass;
+                column[at] = e.column, weight[at++] = e.weight;
+            }
             c.offset[v + 1] = static_cast<Index>(at - 2 * static_cast<std::size_t>(corners.offset[v]));
         }
     });
@@ -130,11 +152,15 @@ Stiffness stiffness(const Mesh& mesh, const StiffnessOptions& options) {
     for (Index v = 0; v < n; ++v) c.offset[v + 1] += c.offset[v];
     c.column.resize(c.offset[n]);
     c.weight.resize(c.offset[n]);
+    c.mass_weight.resize(options.spread_mass ? c.offset[n] : 0);
     parallel_for(n, [&](Index v) {
         const std::size_t from = 2 * static_cast<std::size_t>(corners.offset[v]);
         const Index size = c.offset[v + 1] - c.offset[v];
         std::copy_n(column.begin() + static_cast<std::ptrdiff_t>(from), size, c.column.begin() + c.offset[v]);
         std::copy_n(weight.begin() + static_cast<std::ptrdiff_t>(from), size, c.weight.begin() + c.offset[v]);
+        if (options.spread_mass)
+            std::copy_n(mass_weight.begin() + static_cast<std::ptrdiff_t>(from), size,
+                        c.mass_weight.begin() + c.offset[v]);
     });
     return c;
 }
@@ -207,6 +233,18 @@ Stiffness bending(const Stiffness& c) {
         },
         1);
     return square;
+}
+
+void apply_mass(const Stiffness& c, const double* f, int width, double* out) {
+    parallel_for(c.rows(), [&](Index i) {
+        const double* const own = f + static_cast<std::size_t>(i) * width;
+        double* const to = out + static_cast<std::size_t>(i) * width;
+        for (int w = 0; w < width; ++w) to[w] = c.mass[i] * own[w];
+        for (Index k = c.offset[i]; k < c.offset[i + 1] && !c.mass_weight.empty(); ++k) {
+            const double* const other = f + static_cast<std::size_t>(c.column[k]) * width;
+            for (int w = 0; w < width; ++w) to[w] -= c.mass_weight[k] * (own[w] - other[w]);
+        }
+    });
 }
 
 Components components(const Stiffness& c) {

@@ -24,13 +24,25 @@ struct StiffnessOptions {
     /// Faces with 2 area < this x (sum of squared edge lengths) count with this area. No unit; an equilateral triangle
     /// has 0.29. Bounds the condition of slivers.
     double least_area = 1e-7;
+    /// Masses between neighbours as well, see Stiffness::mass_weight: waves of a few edges then keep their wave number.
+    bool spread_mass = false;
 };
 
 struct Stiffness {
     Array<Index> offset{0};  ///< #V+1
     Array<Index> column;     ///< #entries: the neighbours of each vertex, ascending, without itself
     Array<double> weight;    ///< #entries: -C_ij, exactly symmetric; C f_i = sum_j weight_ij (f_i - f_j)
-    Array<double> mass;      ///< #V, mesh units squared
+    Array<double> mass;      ///< #V, mesh units squared: the sums of the rows of M
+    /// #entries, exactly symmetric, or empty if M is diagonal: -M_ij is what is taken from the diagonal. A mean, face
+    /// by face, of the diagonal masses and those of linear finite elements. With the share 3/8 sum cot_k e_k^4 / (area
+    /// sum e_k^2) of the latter (angles, edges opposite to them; within [-2, 1]) the energy of plane waves, over all
+    /// phases and directions, is right to fourth order in the edge, where either mass alone is to second order: expand
+    /// 1 - J0(q e) = (q e)^2 / 4 - (q e)^4 / 64 in sum cot_k / 2 (1 - J0(q e_k)) = q^2 (wave's mass). Equilateral
+    /// triangles have 1/2, right isosceles ones 3/8. On irregular triangles a part of that energy lies in shorter
+    /// waves, which low passes do not see; so the share is the mean of this one and that of equilateral triangles,
+    /// which on irregular spheres and planes, Delaunay or not, brought waves of 4 edges through low passes best. A
+    /// quarter of the diagonal masses <= M.
+    Array<double> mass_weight;
 
     Index rows() const { return static_cast<Index>(mass.size()); }
 };
@@ -50,6 +62,9 @@ void apply_stiffness(const Stiffness& c, const double* f, int width, double* out
 /// matrix times the mean mass. Masses below 1e-6 of the mean count as that. About 19 entries a row. Cost: linear,
 /// parallel; same bits for any number of threads.
 Stiffness bending(const Stiffness& c);
+
+/// out = M f, the same way.
+void apply_mass(const Stiffness& c, const double* f, int width, double* out);
 
 /// Number of the component of each vertex over the edges of C, from 0 in order of their first vertices; vertices
 /// without a neighbour are components of their own.

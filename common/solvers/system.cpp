@@ -54,12 +54,14 @@ void apply(const Stiffness& c, const Array<std::uint8_t>& active, std::complex<d
         Row sum = Row::Zero();
         for (Index k = c.offset[i]; k < c.offset[i + 1]; ++k) sum += c.weight[k] * (own - row(p, c.column[k]));
         sum *= s;
-        const std::complex<double> m = z * c.mass[i];
+        Row m = c.mass[i] * own;
+        if (!c.mass_weight.empty())
+            for (Index k = c.offset[i]; k < c.offset[i + 1]; ++k) m -= c.mass_weight[k] * (own - row(p, c.column[k]));
         if constexpr (Z) {
-            sum.template head<L>() += m.real() * own.template head<L>() - m.imag() * own.template tail<L>();
-            sum.template tail<L>() += m.real() * own.template tail<L>() + m.imag() * own.template head<L>();
+            sum.template head<L>() += z.real() * m.template head<L>() - z.imag() * m.template tail<L>();
+            sum.template tail<L>() += z.real() * m.template tail<L>() + z.imag() * m.template head<L>();
         } else {
-            sum += m.real() * own;
+            sum += z.real() * m;
         }
         out = sum;
     });
@@ -226,6 +228,7 @@ Solved System::correct(const Shift& shift, std::complex<double> factor, bool sin
     Shift definite = scaled;
     // Below the smallest eigenvalue of a piece of any size, which is about 4 pi^2 / vertices.
     if (singular) definite.mass += scaled.stiffness / static_cast<double>(std::max<Index>(1, matrices_.rows()));
+    if (scaled.mass.real() < 0) definite.mass = {0, std::copysign(std::abs(scaled.mass), scaled.mass.imag())};
     const Family family{matrices_, active_, *grid_, scaled, definite, mass_scale_, by};
     Solved solved;
     solved.without_faces = without_faces_;
@@ -260,13 +263,13 @@ Solved System::solve(double mass, double stiffness, ConstRows rhs, Rows x, const
     require_finite(rhs, "The right-hand side");
     require_finite(x, "The first guess");
     stiffness *= unit_;
-    Array<double> residual(static_cast<std::size_t>(x.rows) * x.width);
+    Array<double> residual(static_cast<std::size_t>(x.rows) * x.width), massive(residual.size());
     apply_stiffness(matrices_, x.values, x.width, residual.data());
+    apply_mass(matrices_, x.values, x.width, massive.data());
     parallel_for(x.rows, [&](Index i) {
         for (int c = 0; c < x.width; ++c) {
             const std::size_t at = static_cast<std::size_t>(i) * x.width + c;
-            residual[at] =
-                active_[i] ? rhs.values[at] - stiffness * residual[at] - mass * matrices_.mass[i] * x.values[at] : 0;
+            residual[at] = active_[i] ? rhs.values[at] - stiffness * residual[at] - mass * massive[at] : 0;
         }
     });
     if (mass > 0) return correct({mass, stiffness}, 1, false, residual, x, options, progress);
@@ -287,10 +290,12 @@ Solved System::rational(const std::vector<Term>& terms, double s, ConstRows f, R
     s *= unit_;
     double constant = 0;
     for (const Term& term : terms) {
-        require(term.pole.real() >= 0 && std::abs(term.pole) > 0 && std::isfinite(std::abs(term.pole)),
-                "The poles of a filter must not be 0, nor have a negative real part.");
+        require(term.pole.real() >= -10 * std::abs(term.pole.imag()) && std::abs(term.pole) > 0 &&
+                    std::isfinite(std::abs(term.pole)),
+                "The poles of a filter must not be 0, nor near the negative real axis.");
         constant += (term.weight / term.pole).real();
     }
+    if (std::abs(constant - 1) < 1e-12) constant = 1;  // so that constants stay exactly
     require_shape(f, matrices_, f.width);
     require_shape(ConstRows(out), matrices_, f.width);
     require_finite(f, "The signal");

@@ -92,6 +92,7 @@ void bind_how(Parameters& p, AttributeBandRow& o) {
         .in("Band")
         .derived(o.cutoff_given);
     bind_band(p, o.band, o.given);
+    bind_calibration(p, o.calibration);
     bind_region(p, o.region);
     bind_pyramid(p, o.pyramid);
 }
@@ -170,14 +171,14 @@ const Plugin& table() {
                                 "pyramid of the surface. The geometry stays as it is.<br>") +
                         cite_roy + cite_guskov,
                     MenuClass::smoothing, faces, vertex_color | vertex_quality, vertex_color | vertex_quality,
-                    gains_returns + attribute_returns + pyramid_returns},
+                    band_returns + attribute_returns},
                    band_defaults, bind_attribute_band, run_band),
             filter({"Multiresolution: Filter Custom Attributes by Band", "apply_attributes_multires_band_custom",
                     std::string("Low pass, stop band or enhancement of custom scalars and points of the vertices by "
                                 "scale, through the pyramid of the surface. The geometry stays as it is.<br>") +
                         cite_roy + cite_guskov,
                     MenuClass::smoothing, faces, vertex_quality | custom_attributes, custom_attributes,
-                    gains_returns + attribute_returns + pyramid_returns},
+                    band_returns + attribute_returns},
                    custom_band_defaults, bind_custom_band, run_band),
             filter({"Multiresolution: Generate Texture Coordinates", "generate_multires_texcoord",
                     std::string(

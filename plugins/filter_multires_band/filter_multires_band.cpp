@@ -29,6 +29,7 @@ void bind_low_pass(Parameters& p, LowPassRow& o) {
         .in("Band")
         .derived(o.cutoff_given);
     bind_softness(p, o.softness);
+    bind_calibration(p, o.calibration);
     bind_region(p, o.region);
     bind_relative_to(p, o.relative_to);
     bind_pyramid(p, o.pyramid);
@@ -54,6 +55,7 @@ BandRow band_defaults(const Layer* layer) {
 
 void bind_stop_band(Parameters& p, BandRow& o) {
     bind_band(p, o.band, o.given);
+    bind_calibration(p, o.calibration);
     bind_region(p, o.region);
     bind_relative_to(p, o.relative_to);
     bind_pyramid(p, o.pyramid);
@@ -111,6 +113,7 @@ void bind_equalizer(Parameters& p, EqualizerRow& o) {
             .slider(0, 4)
             .in("Bands, fine to coarse");
     bind_softness(p, o.softness);
+    bind_calibration(p, o.calibration);
     bind_region(p, o.region);
     bind_relative_to(p, o.relative_to);
     bind_pyramid(p, o.pyramid);
@@ -151,30 +154,28 @@ const Plugin& table() {
                                 "without shrinking the shape.<br>") +
                         cite_guskov,
                     MenuClass::smoothing, faces, reads, vertex_positions,
-                    gains_returns + change_returns + pyramid_returns},
+                    band_returns + moved_returns + change_returns},
                    low_pass_defaults, bind_low_pass, run_low_pass),
             filter(
                 {"Multiresolution: Stop Band", "apply_coord_multires_stop_band",
                  std::string("Removes the structure between two wavelengths; finer engraving and the coarse shape stay."
                              "<br>") +
                      cite_guskov + cite_roy,
-                 MenuClass::smoothing, faces, reads, vertex_positions,
-                 gains_returns + change_returns + pyramid_returns},
+                 MenuClass::smoothing, faces, reads, vertex_positions, band_returns + moved_returns + change_returns},
                 band_defaults, bind_stop_band, run_band),
             filter(
                 {"Multiresolution: Enhance Band", "apply_coord_multires_enhance",
                  std::string("Multiplies the structure between two wavelengths by a gain: brings out what is worn, or "
                              "weakens what disturbs.<br>") +
                      cite_guskov + cite_roy,
-                 MenuClass::smoothing, faces, reads, vertex_positions,
-                 gains_returns + change_returns + pyramid_returns},
+                 MenuClass::smoothing, faces, reads, vertex_positions, band_returns + moved_returns + change_returns},
                 enhance_defaults, bind_enhance, run_band),
             filter({"Multiresolution: Equalizer", "apply_coord_multires_equalizer",
                     std::string("Eight gains for eight bands of wavelengths from fine to coarse, given in the mesh's "
                                 "unit. With all gains at 1 the mesh comes back unchanged.<br>") +
                         cite_guskov,
                     MenuClass::smoothing, faces, reads, vertex_positions,
-                    gains_returns + change_returns + pyramid_returns},
+                    band_returns + moved_returns + change_returns},
                    equalizer_defaults, bind_equalizer, run_equalizer),
             filter({"Multiresolution: Unsharp (Single Level)", "apply_coord_multires_unsharp",
                     std::string(

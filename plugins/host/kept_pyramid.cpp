@@ -27,8 +27,8 @@ namespace {
 
 // Change the numbers with the layout of Slot, Pyramid, Original or anything they hold: plugins of different builds
 // may meet.
-constexpr const char* attribute_name = "multires_kept_3";
-constexpr const char* list_name = "multires_slots_3";
+constexpr const char* attribute_name = "multires_kept_4";
+constexpr const char* list_name = "multires_slots_4";
 
 using Slots = std::set<Slot*>;
 

@@ -9,10 +9,11 @@
 
 namespace multires::host {
 
-/// What a mesh keeps between calls; either may be null.
+/// What a mesh keeps between calls; each may be null.
 struct Kept {
     std::shared_ptr<const Pyramid> pyramid;
     std::shared_ptr<const Original> original;
+    std::shared_ptr<const Spline> spline;
 };
 
 /// Where it keeps it: a named per-mesh attribute of vcg, which is not copied with the mesh. It is found by name, so it

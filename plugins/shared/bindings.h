@@ -2,6 +2,7 @@
 
 #include "shared/table.h"
 
+#include "filters/calibration.h"
 #include "filters/original.h"
 #include "filters/region.h"
 #include "pyramid/band.h"
@@ -115,9 +116,26 @@ inline void bind_unit(Parameters& p, Unit& unit) {
 }
 
 inline void bind_softness(Parameters& p, double& softness) {
-    p.add("softness", &softness, "Softness", "Width of the band's edges in octaves of wavelength; 0 is a sharp edge.")
+    p.add("softness", &softness, "Softness",
+          "Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge.")
         .between(0, 10)
         .in("Band");
+}
+
+inline void bind_calibration(Parameters& p, Calibration& o) {
+    const char* group = "Band";
+    p.add("method", Choice(o.method, {"pyramid", "spline"}), "Method",
+          "Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere stays "
+          "a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.")
+        .in(group);
+    p.add("order", Choice(o.order, {"1", "2", "4", "gaussian"}), "Order",
+          "Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), "
+          "1 / (1 + s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).")
+        .advanced(group);
+    p.add("measure", &o.measure, "Measure transmission",
+          "Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4 "
+          "cutoffs. Takes a few times as long.")
+        .advanced(group);
 }
 
 /// True where a filter that honours the selection should do so by default.

@@ -38,6 +38,30 @@ inline const Returns gains_returns{
     {"gains", Type::list, "", "The factor of each level's details, finest first."},
 };
 
+/// Those of a filter that are there with some parameters only.
+inline Returns sometimes(Returns all) {
+    for (Returned& r : all) r.always = false;
+    return all;
+}
+
+/// Of every filter with the two methods of bands.
+inline const Returns band_returns =
+    sometimes(gains_returns + pyramid_returns +
+              Returns{
+                  {"solver_reused", Type::boolean, "",
+                   "The solver kept with the mesh was used; otherwise one was set up and kept (spline)."},
+                  {"measured_waves", Type::list, "mesh units", "Waves that were tested (measure)."},
+                  {"measured_transmission", Type::list, "", "The share that was left of them."},
+                  {"formula_transmission", Type::list, "", "The share that the formula leaves of them."},
+              });
+
+/// How vertices moved, by the spline method.
+inline const Returns moved_returns = sometimes({
+    {"normal_rms", Type::real, "mesh units",
+     "Root of the mean square of the ways along the normals, by area (spline)."},
+    {"tangential_rms", Type::real, "mesh units", "The same of the ways along the surface: drift (spline)."},
+});
+
 /// Of every filter of attributes; * stands for color, quality, texcoord or custom_NAME.
 inline const Returns attribute_returns{
     {"*_largest_change", Type::real, "units of the attribute",

@@ -21,11 +21,15 @@ MORE = {
     "generate_multires_adaptive_reconstruction": [{"target": "RMS distance", "use_color": True, "use_quality": True},
                                                   {"measure": False}],
     "apply_attributes_multires_relaxation": [{"quality": True, "texcoord": True, "wedge_texcoord": True, "custom": True}],
-    "apply_attributes_multires_band": [{"quality": True}],
+    "apply_attributes_multires_band": [{"quality": True}, {"quality": True, "method": "spline", "measure": True}],
+    "apply_attributes_multires_band_custom": [{"method": "spline", "measure": True}],
     "apply_attributes_multires_denoise": [{"quality": True, "custom": True}],
     "apply_coord_multires_denoise": [{"method": "soft threshold"}, {"method": "hard threshold", "keep_volume": True}],
     "compute_scalar_multires_difference_per_vertex": [{"wavelength": 0.2}],
     "generate_multires_texcoord": [{"projection": "planar"}, {"projection": "existing"}],
+    **{f"apply_coord_multires_{name}": [{"method": "spline", "measure": True}, {"method": "pyramid"}]
+       for name in ("low_pass", "stop_band", "enhance")},
+    "apply_coord_multires_equalizer": [{"method": "spline", "measure": True, "gain_3": 0}],
 }  # fmt: skip
 
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "filters/attributes/channels.h"
+#include "filters/calibration.h"
 #include "filters/region.h"
 #include "pyramid/band.h"
 
@@ -25,6 +26,7 @@ struct AttributeBandOptions {
     double cutoff = 0;          ///< in the band's unit, for low_pass
     double gain = 2;            ///< finite, for enhance
     bool linear_light = false;  ///< see AttributeRelaxationOptions
+    Calibration calibration;
     Region region;
     PyramidOptions pyramid;
 };

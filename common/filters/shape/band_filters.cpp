@@ -1,5 +1,6 @@
 #include "filters/shape/band_filters.h"
 
+#include "base/parallel.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
@@ -13,6 +14,41 @@ namespace {
 
 void require_finite(double value, const std::string& name) {
     if (!std::isfinite(value)) throw InputError(name + " must be a number");
+}
+
+/// The steps of every calibrated filter: start, solver, low passes, region, report.
+template <class Options, class Limits>
+Result filter_calibrated(const Layer& layer, const Options& options, Session& session, const Limits& limits) {
+    Result result;
+    const std::vector<double> weights = region_weights(layer, options.region);
+    const Start start(layer, options.relative_to, session, result.report);
+    const Mesh& mesh = start.layer().mesh;
+    const std::vector<Limit> all = limits(start.layer(), result.report);
+    const auto spline = spline_of(start.layer(), options.pyramid.features, session, result.report);
+    Positions after = mesh.positions;
+    const Progress progress = session.progress.part(0.3, options.calibration.measure ? 0.6 : 0.95);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const double share = 1 / static_cast<double>(all.size()), begin = share * static_cast<double>(i);
+        const Cutoff cutoff{options.calibration.order, all[i].wavelength};
+        const Positions low = spline->low_pass(mesh, cutoff, all[i].parameter, progress.part(begin, begin + share));
+        parallel_for(static_cast<Index>(after.size()), [&](Index v) {
+            const Vec3 &p = mesh.positions[v], &q = low[v];
+            if (all[i].step == 1 && all.size() == 1) {
+                after[v] = q;
+            } else if (p != q) {
+                after[v] += all[i].step * (q - p);
+            }
+        });
+    }
+    report_transmission(*spline, mesh, options.calibration, all, session.progress.part(0.6, 0.95), result.report);
+    const Drift way = drift(mesh.faces, mesh.positions, after);
+    blend(layer.mesh.positions, weights, after);
+    session.progress.report(0.97, "Measuring the change");
+    result.report.add("normal_rms", way.normal_rms, "mesh units");
+    result.report.add("tangential_rms", way.tangential_rms, "mesh units");
+    report_change(layer, after, result.report);
+    result.positions = std::move(after);
+    return result;
 }
 
 /// The story of every band filter: start, pyramid, gains, synthesis, region, report.
@@ -46,6 +82,10 @@ Result low_pass(const Layer& layer, const LowPassOptions& options, Session& sess
     const bool vertices = options.unit == Unit::vertices;
     band.finest = vertices ? 1e300 : 0;
     band.coarsest = options.cutoff;
+    if (options.calibration.method == BandMethod::spline)
+        return filter_calibrated(layer, options, session, [&](const Layer& start, Report& report) {
+            return limits_of(start, band, 0, "cutoff", options.pyramid, session, report);
+        });
     return filter_bands(layer, options, session, [&](const Layer& start, const Pyramid& pyramid) {
         return band_gains(pyramid, band, box_diagonal(start), 0);
     });
@@ -53,6 +93,10 @@ Result low_pass(const Layer& layer, const LowPassOptions& options, Session& sess
 
 Result scale_band(const Layer& layer, const BandOptions& options, Session& session) {
     require_finite(options.gain, "gain");
+    if (options.calibration.method == BandMethod::spline)
+        return filter_calibrated(layer, options, session, [&](const Layer& start, Report& report) {
+            return limits_of(start, options.band, options.gain, "coarsest", options.pyramid, session, report);
+        });
     return filter_bands(layer, options, session, [&](const Layer& start, const Pyramid& pyramid) {
         return band_gains(pyramid, options.band, box_diagonal(start), options.gain);
     });
@@ -70,6 +114,17 @@ std::array<double, equalizer_bands + 1> equalizer_limits(const Layer& layer, con
 
 Result equalizer(const Layer& layer, const EqualizerOptions& options, Session& session) {
     for (int i = 0; i < equalizer_bands; ++i) require_finite(options.gain[i], "gain_" + std::to_string(i + 1));
+    if (options.calibration.method == BandMethod::spline)
+        return filter_calibrated(layer, options, session, [&](const Layer& start, Report&) {
+            const auto limit = equalizer_limits(start, options.pyramid);
+            std::vector<Limit> limits;
+            for (int i = 1; i <= equalizer_bands; ++i) {
+                const double coarser = i < equalizer_bands ? options.gain[i] : 1;
+                if (coarser != options.gain[i - 1])
+                    limits.push_back({limit[i], coarser - options.gain[i - 1], "gains"});
+            }
+            return limits;
+        });
     return filter_bands(layer, options, session, [&](const Layer& start, const Pyramid& pyramid) {
         const auto limit = equalizer_limits(start, options.pyramid);
         std::vector<double> gains(pyramid.levels().size() - 1, 1);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "filters/calibration.h"
 #include "filters/original.h"
 #include "filters/region.h"
 #include "pyramid/band.h"
@@ -12,13 +13,17 @@
 /// What is computed is a function of the shape they start from (see original.h) alone, its limits in percent and the
 /// equalizer's bands included. The region decides where that replaces the current shape, and the report compares the
 /// two.
+///
+/// With Calibration::method = spline the bands are differences of calibrated low passes (bands/spline.h): their limits
+/// are wavelengths of which half belongs to either side, as steep as the order says; softness has no part in it.
 namespace multires {
 
 /// Removes everything finer than `cutoff`.
 struct LowPassOptions {
     double cutoff = 0;  ///< in `unit`
     Unit unit = Unit::wavelength;
-    double softness = 0;  ///< octaves
+    double softness = 0;  ///< octaves, for the pyramid
+    Calibration calibration;
     Region region;
     RelativeTo relative_to = RelativeTo::current;
     PyramidOptions pyramid;
@@ -29,6 +34,7 @@ Result low_pass(const Layer& layer, const LowPassOptions& options, Session& sess
 struct BandOptions {
     Band band;
     double gain = 0;  ///< finite
+    Calibration calibration;
     Region region;
     RelativeTo relative_to = RelativeTo::current;
     PyramidOptions pyramid;
@@ -38,10 +44,12 @@ Result scale_band(const Layer& layer, const BandOptions& options, Session& sessi
 constexpr int equalizer_bands = 8;
 
 /// Eight gains from fine to coarse. Band i reaches from limit i to limit i+1 of equalizer_limits(); the first one takes
-/// in everything finer and the last one everything coarser.
+/// in everything finer and the last one everything coarser; by the spline method, up to the last limit, so that the
+/// whole keeps its size.
 struct EqualizerOptions {
     std::array<double, equalizer_bands> gain{1, 1, 1, 1, 1, 1, 1, 1};  ///< finite
-    double softness = 0.5;                                             ///< octaves
+    double softness = 0.5;                                             ///< octaves, for the pyramid
+    Calibration calibration;
     Region region;
     RelativeTo relative_to = RelativeTo::current;
     PyramidOptions pyramid;

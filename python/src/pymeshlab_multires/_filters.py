@@ -9,8 +9,8 @@ __all__ = [
     "AdaptiveReconstructionReport", "AttributeChanges", "BuildPyramidReport", "DenoiseAttributesReport",
     "DenoiseReport", "DetailToQualityReport", "DifferenceToLayerReport", "EnhanceReport", "EqualizerReport", "Features",
     "FilterAttributesReport", "FilterCustomAttributesReport", "GenerateTexcoordReport", "Grouping", "LIMITS",
-    "LevelAsLayerReport", "LowPassReport", "Mode", "Movement", "Operator", "Pyramid", "PyramidUse", "RelativeTo",
-    "RelaxAttributesReport", "Result", "Scheme", "StopBandReport", "Storage", "UnsharpReport",
+    "LevelAsLayerReport", "LowPassReport", "Mode", "Movement", "Operator", "Order", "Pyramid", "PyramidUse",
+    "RelativeTo", "RelaxAttributesReport", "Result", "Scheme", "StopBandReport", "Storage", "UnsharpReport",
     "adaptive_reconstruction", "build_pyramid", "denoise", "denoise_attributes", "detail_to_quality",
     "difference_to_layer", "enhance", "equalizer", "filter_attributes", "filter_custom_attributes", "generate_texcoord",
     "level_as_layer", "low_pass", "relax_attributes", "stop_band", "unsharp",
@@ -24,6 +24,7 @@ Operator: TypeAlias = Literal[
 Grouping: TypeAlias = Literal["independent sets", "sequential"]
 Storage: TypeAlias = Literal["double", "float"]
 Features: TypeAlias = Literal["none", "by angle", "edges not faux", "selected edges"]
+Order: TypeAlias = Literal["1", "2", "4", "gaussian"]
 RelativeTo: TypeAlias = Literal["current shape", "original"]
 Mode: TypeAlias = Literal["low pass", "stop band", "enhance"]
 
@@ -216,35 +217,107 @@ class DifferenceToLayerReport(Result):
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class LowPassReport(Movement, PyramidUse, Result):
+class LowPassReport(Movement, Result):
     """What low_pass() returns."""
 
-    gains: Array
+    gains: Array | None = None
     """The factor of each level's details, finest first."""
+    pyramid_reused: bool | None = None
+    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
+    locked_vertices: int | None = None
+    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
+    unreferenced_vertices: int | None = None
+    """Vertices without a face, which stay where they are."""
+    solver_reused: bool | None = None
+    """The solver kept with the mesh was used; otherwise one was set up and kept (spline)."""
+    measured_waves: Array | None = None
+    """Waves that were tested (measure) (mesh units)."""
+    measured_transmission: Array | None = None
+    """The share that was left of them."""
+    formula_transmission: Array | None = None
+    """The share that the formula leaves of them."""
+    normal_rms: float | None = None
+    """Root of the mean square of the ways along the normals, by area (spline) (mesh units)."""
+    tangential_rms: float | None = None
+    """The same of the ways along the surface: drift (spline) (mesh units)."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class StopBandReport(Movement, PyramidUse, Result):
+class StopBandReport(Movement, Result):
     """What stop_band() returns."""
 
-    gains: Array
+    gains: Array | None = None
     """The factor of each level's details, finest first."""
+    pyramid_reused: bool | None = None
+    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
+    locked_vertices: int | None = None
+    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
+    unreferenced_vertices: int | None = None
+    """Vertices without a face, which stay where they are."""
+    solver_reused: bool | None = None
+    """The solver kept with the mesh was used; otherwise one was set up and kept (spline)."""
+    measured_waves: Array | None = None
+    """Waves that were tested (measure) (mesh units)."""
+    measured_transmission: Array | None = None
+    """The share that was left of them."""
+    formula_transmission: Array | None = None
+    """The share that the formula leaves of them."""
+    normal_rms: float | None = None
+    """Root of the mean square of the ways along the normals, by area (spline) (mesh units)."""
+    tangential_rms: float | None = None
+    """The same of the ways along the surface: drift (spline) (mesh units)."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class EnhanceReport(Movement, PyramidUse, Result):
+class EnhanceReport(Movement, Result):
     """What enhance() returns."""
 
-    gains: Array
+    gains: Array | None = None
     """The factor of each level's details, finest first."""
+    pyramid_reused: bool | None = None
+    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
+    locked_vertices: int | None = None
+    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
+    unreferenced_vertices: int | None = None
+    """Vertices without a face, which stay where they are."""
+    solver_reused: bool | None = None
+    """The solver kept with the mesh was used; otherwise one was set up and kept (spline)."""
+    measured_waves: Array | None = None
+    """Waves that were tested (measure) (mesh units)."""
+    measured_transmission: Array | None = None
+    """The share that was left of them."""
+    formula_transmission: Array | None = None
+    """The share that the formula leaves of them."""
+    normal_rms: float | None = None
+    """Root of the mean square of the ways along the normals, by area (spline) (mesh units)."""
+    tangential_rms: float | None = None
+    """The same of the ways along the surface: drift (spline) (mesh units)."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class EqualizerReport(Movement, PyramidUse, Result):
+class EqualizerReport(Movement, Result):
     """What equalizer() returns."""
 
-    gains: Array
+    gains: Array | None = None
     """The factor of each level's details, finest first."""
+    pyramid_reused: bool | None = None
+    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
+    locked_vertices: int | None = None
+    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
+    unreferenced_vertices: int | None = None
+    """Vertices without a face, which stay where they are."""
+    solver_reused: bool | None = None
+    """The solver kept with the mesh was used; otherwise one was set up and kept (spline)."""
+    measured_waves: Array | None = None
+    """Waves that were tested (measure) (mesh units)."""
+    measured_transmission: Array | None = None
+    """The share that was left of them."""
+    formula_transmission: Array | None = None
+    """The share that the formula leaves of them."""
+    normal_rms: float | None = None
+    """Root of the mean square of the ways along the normals, by area (spline) (mesh units)."""
+    tangential_rms: float | None = None
+    """The same of the ways along the surface: drift (spline) (mesh units)."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -308,19 +381,47 @@ class RelaxAttributesReport(AttributeChanges, Result):
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class FilterAttributesReport(PyramidUse, AttributeChanges, Result):
+class FilterAttributesReport(AttributeChanges, Result):
     """What filter_attributes() returns."""
 
-    gains: Array
+    gains: Array | None = None
     """The factor of each level's details, finest first."""
+    pyramid_reused: bool | None = None
+    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
+    locked_vertices: int | None = None
+    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
+    unreferenced_vertices: int | None = None
+    """Vertices without a face, which stay where they are."""
+    solver_reused: bool | None = None
+    """The solver kept with the mesh was used; otherwise one was set up and kept (spline)."""
+    measured_waves: Array | None = None
+    """Waves that were tested (measure) (mesh units)."""
+    measured_transmission: Array | None = None
+    """The share that was left of them."""
+    formula_transmission: Array | None = None
+    """The share that the formula leaves of them."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class FilterCustomAttributesReport(PyramidUse, AttributeChanges, Result):
+class FilterCustomAttributesReport(AttributeChanges, Result):
     """What filter_custom_attributes() returns."""
 
-    gains: Array
+    gains: Array | None = None
     """The factor of each level's details, finest first."""
+    pyramid_reused: bool | None = None
+    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
+    locked_vertices: int | None = None
+    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
+    unreferenced_vertices: int | None = None
+    """Vertices without a face, which stay where they are."""
+    solver_reused: bool | None = None
+    """The solver kept with the mesh was used; otherwise one was set up and kept (spline)."""
+    measured_waves: Array | None = None
+    """Waves that were tested (measure) (mesh units)."""
+    measured_transmission: Array | None = None
+    """The share that was left of them."""
+    formula_transmission: Array | None = None
+    """The share that the formula leaves of them."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -457,7 +558,8 @@ def detail_to_quality(
             0. None: derived from the mesh.
         coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
             least 0. None: derived from the mesh.
-        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
+            10.
         signed_normal: Store the part of the detail along the vertex normal, positive outwards, instead of its length.
         pyramid: how the pyramid is built. None: the filter's defaults.
 
@@ -505,7 +607,8 @@ def difference_to_layer(
 @also_flat(Pyramid)
 def low_pass(
     ms: MeshSet, *, unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
-    cutoff: float | None = None, softness: float = 0.0, selected: bool | None = None, quality_mask: bool = False,
+    cutoff: float | None = None, softness: float = 0.0, method: Literal["pyramid", "spline"] = "pyramid",
+    order: Order = "2", measure: bool = False, selected: bool | None = None, quality_mask: bool = False,
     relative_to: RelativeTo = "current shape", pyramid: Pyramid | None = None,
 ) -> LowPassReport:
     """Removes everything finer than a wavelength and keeps everything coarser, in one pass, without shrinking the
@@ -521,7 +624,14 @@ def low_pass(
             leave limits out: they are then derived from the mesh, in this unit. In a dialog the numbers shown count.
         cutoff: Everything finer than this is removed: shorter waves, lower levels, levels with more vertices. A number,
             at least 0. None: derived from the mesh.
-        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
+            10.
+        method: Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere
+            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.
+        order: Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 +
+            s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
+        measure: Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4
+            cutoffs. Takes a few times as long.
         selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
             derived from the mesh.
         quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
@@ -544,8 +654,10 @@ def low_pass(
 @also_flat(Pyramid)
 def stop_band(
     ms: MeshSet, *, unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
-    finest: float | None = None, coarsest: float | None = None, softness: float = 0.0, selected: bool | None = None,
-    quality_mask: bool = False, relative_to: RelativeTo = "current shape", pyramid: Pyramid | None = None,
+    finest: float | None = None, coarsest: float | None = None, softness: float = 0.0,
+    method: Literal["pyramid", "spline"] = "pyramid", order: Order = "2", measure: bool = False,
+    selected: bool | None = None, quality_mask: bool = False, relative_to: RelativeTo = "current shape",
+    pyramid: Pyramid | None = None,
 ) -> StopBandReport:
     """Removes the structure between two wavelengths; finer engraving and the coarse shape stay.
 
@@ -561,7 +673,14 @@ def stop_band(
             0. None: derived from the mesh.
         coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
             least 0. None: derived from the mesh.
-        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
+            10.
+        method: Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere
+            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.
+        order: Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 +
+            s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
+        measure: Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4
+            cutoffs. Takes a few times as long.
         selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
             derived from the mesh.
         quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
@@ -587,7 +706,8 @@ def stop_band(
 def enhance(
     ms: MeshSet, *, gain: float = 2.0,
     unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength", finest: float | None = None,
-    coarsest: float | None = None, softness: float = 0.0, selected: bool | None = None, quality_mask: bool = False,
+    coarsest: float | None = None, softness: float = 0.0, method: Literal["pyramid", "spline"] = "pyramid",
+    order: Order = "2", measure: bool = False, selected: bool | None = None, quality_mask: bool = False,
     relative_to: RelativeTo = "current shape", pyramid: Pyramid | None = None,
 ) -> EnhanceReport:
     """Multiplies the structure between two wavelengths by a gain: brings out what is worn, or weakens what disturbs.
@@ -605,7 +725,14 @@ def enhance(
             0. None: derived from the mesh.
         coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
             least 0. None: derived from the mesh.
-        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
+            10.
+        method: Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere
+            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.
+        order: Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 +
+            s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
+        measure: Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4
+            cutoffs. Takes a few times as long.
         selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
             derived from the mesh.
         quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
@@ -631,6 +758,7 @@ def enhance(
 def equalizer(
     ms: MeshSet, *, gain_1: float = 1.0, gain_2: float = 1.0, gain_3: float = 1.0, gain_4: float = 1.0,
     gain_5: float = 1.0, gain_6: float = 1.0, gain_7: float = 1.0, gain_8: float = 1.0, softness: float = 0.5,
+    method: Literal["pyramid", "spline"] = "pyramid", order: Order = "2", measure: bool = False,
     selected: bool | None = None, quality_mask: bool = False, relative_to: RelativeTo = "current shape",
     pyramid: Pyramid | None = None,
 ) -> EqualizerReport:
@@ -644,7 +772,14 @@ def equalizer(
         ms: the document.
         gain_1, gain_2, gain_3, gain_4, gain_5, gain_6, gain_7, gain_8: Factor for the structure of these wavelengths
             (mesh units): 1 leaves it, 0 removes it, 2 doubles it. A number, 0 to 4.
-        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
+            10.
+        method: Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere
+            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.
+        order: Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 +
+            s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
+        measure: Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4
+            cutoffs. Takes a few times as long.
         selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
             derived from the mesh.
         quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
@@ -820,7 +955,8 @@ def filter_attributes(
     ms: MeshSet, *, color: bool | None = None, quality: bool | None = None, linear_light: bool = False,
     mode: Mode = "low pass", gain: float = 2.0, cutoff: float | None = None,
     unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength", finest: float | None = None,
-    coarsest: float | None = None, softness: float = 0.0, selected: bool | None = None, quality_mask: bool = False,
+    coarsest: float | None = None, softness: float = 0.0, method: Literal["pyramid", "spline"] = "pyramid",
+    order: Order = "2", measure: bool = False, selected: bool | None = None, quality_mask: bool = False,
     pyramid: Pyramid | None = None,
 ) -> FilterAttributesReport:
     """Low pass, stop band or enhancement of vertex colour or quality by scale, through the pyramid of the surface.
@@ -848,7 +984,14 @@ def filter_attributes(
             0. None: derived from the mesh.
         coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
             least 0. None: derived from the mesh.
-        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
+            10.
+        method: Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere
+            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.
+        order: Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 +
+            s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
+        measure: Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4
+            cutoffs. Takes a few times as long.
         selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
             derived from the mesh.
         quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
@@ -870,7 +1013,8 @@ def filter_attributes(
 def filter_custom_attributes(
     ms: MeshSet, *, custom_names: str = "", mode: Mode = "low pass", gain: float = 2.0, cutoff: float | None = None,
     unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength", finest: float | None = None,
-    coarsest: float | None = None, softness: float = 0.0, selected: bool | None = None, quality_mask: bool = False,
+    coarsest: float | None = None, softness: float = 0.0, method: Literal["pyramid", "spline"] = "pyramid",
+    order: Order = "2", measure: bool = False, selected: bool | None = None, quality_mask: bool = False,
     pyramid: Pyramid | None = None,
 ) -> FilterCustomAttributesReport:
     """Low pass, stop band or enhancement of custom scalars and points of the vertices by scale, through the pyramid of
@@ -896,7 +1040,14 @@ def filter_custom_attributes(
             0. None: derived from the mesh.
         coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
             least 0. None: derived from the mesh.
-        softness: Width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to 10.
+        softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
+            10.
+        method: Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere
+            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.
+        order: Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 +
+            s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
+        measure: Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4
+            cutoffs. Takes a few times as long.
         selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
             derived from the mesh.
         quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are

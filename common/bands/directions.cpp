@@ -1,0 +1,96 @@
+#include "bands/directions.h"
+
+#include "bands/spline.h"
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+Vec3 area_vector(const Face& f, const Positions& p) { return (p[f[1]] - p[f[0]]).cross(p[f[2]] - p[f[0]]); }
+
+/// cos^2 of the largest turn of a face.
+constexpr double least_cosine_square = 0.5;
+constexpr int most_halvings = 20;
+
+/// Vertices of faces that are turned too far.
+/// @returns  whether there are any
+bool mark_turned(const Faces& faces, const Positions& from, const Positions& to, Array<std::uint8_t>& bad_face,
+                 Array<std::uint8_t>& bad) {
+    parallel_for(static_cast<Index>(faces.size()), [&](Index i) {
+        const Vec3 a = area_vector(faces[i], from), b = area_vector(faces[i], to);
+        const double dot = a.dot(b);
+        bad_face[i] = dot < 0 || dot * dot < least_cosine_square * a.squaredNorm() * b.squaredNorm();
+    });
+    std::fill(bad.begin(), bad.end(), 0);
+    bool any = false;
+    for (std::size_t i = 0; i < faces.size(); ++i)
+        if (bad_face[i]) {
+            any = true;
+            for (const Index v : faces[i]) bad[v] = 1;
+        }
+    return any;
+}
+
+}  // namespace
+
+Array<Vec3> directions(const Faces& faces, const Positions& positions) {
+    Array<Vec3> sum(positions.size(), Vec3::Zero());
+    for (const Face& f : faces) {
+        const Vec3 n = area_vector(f, positions);
+        for (const Index v : f) sum[v] += sum[v].dot(n) < 0 ? Vec3(-n) : n;
+    }
+    for (Vec3& n : sum) {
+        const double length = n.norm();
+        n = length > 0 && std::isfinite(length) ? Vec3(n / length) : Vec3::Zero();
+    }
+    return sum;
+}
+
+void move_along_normals(const Mesh& mesh, const Stiffness& neighbours, Positions& smooth) {
+    const Index n = static_cast<Index>(smooth.size());
+    const Array<Vec3> normal = directions(mesh.faces, smooth);
+    Positions along(smooth.size()), moved(smooth.size());
+    parallel_for(n, [&](Index i) {
+        const Vec3 d = smooth[i] - mesh.positions[i];
+        along[i] = normal[i].isZero() ? Vec3(Vec3::Zero()) : Vec3(d - normal[i].dot(d) * normal[i]);
+        moved[i] = smooth[i] - along[i];
+    });
+    Array<double> share(smooth.size(), 1), halved(smooth.size());
+    Array<std::uint8_t> bad_face(mesh.faces.size()), bad(smooth.size());
+    for (int step = 0; step < most_halvings && mark_turned(mesh.faces, smooth, moved, bad_face, bad); ++step) {
+        parallel_for(n, [&](Index i) { halved[i] = bad[i] ? share[i] / 2 : share[i]; });
+        parallel_for(n, [&](Index i) {
+            double sum = 0;
+            const Index begin = neighbours.offset[i], end = neighbours.offset[i + 1];
+            for (Index k = begin; k < end; ++k) sum += halved[neighbours.column[k]];
+            const double mean = begin < end ? sum / (end - begin) : halved[i];
+            share[i] = std::min(halved[i], (halved[i] + mean) / 2);
+            moved[i] = smooth[i] - share[i] * along[i];
+        });
+    }
+    smooth = std::move(moved);
+}
+
+Drift drift(const Faces& faces, const Positions& before, const Positions& after) {
+    const Array<Vec3> normal = directions(faces, after);
+    Array<double> area(after.size(), 0);
+    for (const Face& f : faces) {
+        const double a = area_vector(f, after).norm();
+        for (const Index v : f) area[v] += a;
+    }
+    double whole = 0, across = 0, along = 0;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        const Vec3 d = after[i] - before[i];
+        const double part = normal[i].dot(d);
+        whole += area[i];
+        across += area[i] * part * part;
+        along += area[i] * (d - part * normal[i]).squaredNorm();
+    }
+    if (!(whole > 0)) return {};
+    return {std::sqrt(across / whole), std::sqrt(along / whole)};
+}
+
+}  // namespace multires

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "mesh/mesh.h"
+#include "solvers/stiffness.h"
+
+namespace multires {
+
+/// Unit normals of the vertices up to their sign, whatever the orientation of the faces: area vectors of the faces of
+/// each vertex, turned to agree with those before them. Zero for vertices without area.
+/// @returns  #V by 3
+Array<Vec3> directions(const Faces& faces, const Positions& positions);
+
+/// Takes from the way of each vertex from mesh.positions to `smooth` the part along the surface `smooth`, as far as no
+/// face turns by more than 45 degrees against that surface. Where one would, its vertices and those around them take
+/// half of what is left of that part, and so on.
+/// @param neighbours  of the mesh: offset and column
+/// @param smooth      #V by 3; the result afterwards
+/// Cost: linear; a pass over the faces for each halving, 20 at most. Same bits for any number of threads.
+void move_along_normals(const Mesh& mesh, const Stiffness& neighbours, Positions& smooth);
+
+}  // namespace multires
