@@ -107,7 +107,7 @@ Prepared prepared(const Faces& faces, const Positions& positions, const Incidenc
 /// strong enough to be told from the shape.
 double caution(double deviation_in_edges, Index vertices) {
     const double error = std::min(0.12, 0.04 + 3 / std::sqrt(static_cast<double>(vertices)));
-    return 1 + error * std::clamp((deviation_in_edges - 0.03) / 0.07, 0.0, 1.0);
+    return 1 + error * std::clamp((deviation_in_edges - 0.03) / 0.03, 0.0, 1.0);
 }
 
 /// The noise as it is assumed for the choice.
@@ -130,9 +130,10 @@ void drop_small(Eigen::VectorXd& t) {
     if (t.sum() > 0) t *= before / t.sum();
 }
 
-/// Least risk of the normals, as long as distances gain at least half of what they could.
+/// Least risk of the normals, as long as the distances gain, too: a third of the noise, or half of what they could.
 Eigen::VectorXd weights_of(const Risks& r) {
-    const double limit = (r.heights.constant + r.heights.at(least_risk(r.heights))) / 2;
+    const double half = (r.heights.constant + r.heights.at(least_risk(r.heights))) / 2;
+    const double limit = std::max(half, 0.7 * r.heights.constant);
     Eigen::VectorXd t;
     for (const double heights : {0.0, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0}) {
         const double e = 1 / r.edges.constant, h = heights / r.heights.constant;
@@ -142,6 +143,12 @@ Eigen::VectorXd weights_of(const Risks& r) {
         if (r.heights.at(t) <= limit) break;
     }
     return t;
+}
+
+/// Weight of the normal field.
+double field_share(const Eigen::VectorXd& t) {
+    const Eigen::Index count = field_strength.size();
+    return t.tail(count).sum();
 }
 
 Choice choose(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
@@ -178,20 +185,41 @@ double mean_square(const Positions& p) {
     return p.empty() ? 0 : sum / static_cast<double>(p.size());
 }
 
-/// Of the shift within the surface, so much that the vertices do not get farther from the truth even if it is wrong.
-double safe_share(const WithinSurface& within, const Choice& choice) {
-    const double gained = 0.5 * std::max(0.0, choice.before - choice.after);
-    const double moved = within.noisy ? within.turned_back * within.turned_back : mean_square(within.shift);
-    const double allowed =
-        within.noisy ? gained + 0.9 * std::max(0.0, within.before * within.before - within.after * within.after)
-                     : gained;
-    return moved > allowed ? std::sqrt(allowed / moved) : 1;
+/// What of the shifts within the surface is made.
+struct Shares {
+    double smoothing = 1, turning = 1;
+};
+
+/// So much that the vertices do not get farther from the truth even if the shifts are wrong. The normal field turns
+/// faces back itself, and better at creases.
+Shares safe_shares(const WithinSurface& within, const Choice& choice) {
+    Shares shares;
+    if (field_share(choice.weights) > 0.9) shares.turning = 0;
+    const double smoothed = mean_square(within.smoothing), turned = shares.turning * mean_square(within.turning);
+    double allowed = 0.5 * std::max(0.0, choice.before - choice.after);
+    if (within.noisy) {
+        allowed += 0.9 * std::max(0.0, within.before * within.before - within.after * within.after);
+        if (turned > allowed) shares.turning = std::sqrt(allowed / turned);
+    } else if (smoothed + turned > allowed) {
+        const double share = std::sqrt(allowed / (smoothed + turned));
+        shares.smoothing *= share;
+        shares.turning *= share;
+    }
+    return shares;
 }
 
-Positions shifted(const Positions& p, const Positions& shift, double share) {
+Positions shifted(const Positions& p, const WithinSurface& within, const Shares& shares) {
     Positions out = p;
-    for (std::size_t i = 0; i < p.size(); ++i) out[i] += share * shift[i];
+    for (std::size_t i = 0; i < p.size(); ++i)
+        out[i] += shares.smoothing * within.smoothing[i] + shares.turning * within.turning[i];
     return out;
+}
+
+/// Mean square error within the surface after the shifts, as far as it is known.
+double error_within(const WithinSurface& within, const Shares& shares) {
+    const double turned = shares.turning * shares.turning * mean_square(within.turning);
+    if (within.noisy) return within.after * within.after + turned;
+    return shares.smoothing * shares.smoothing * mean_square(within.smoothing) + turned;
 }
 
 }  // namespace
@@ -225,18 +253,16 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     assumed.factor = caution(in_edges, count);
     assumed.normal_steps = normal_steps(in_edges);
     assumed.deviation.assign(count, assumed.factor * noise.along_normals);
-    const Choice choice = choose_on_sample(faces, shifted(start, within.shift, 1), at, near, assumed,
+    const Choice choice = choose_on_sample(faces, shifted(start, within, Shares()), at, near, assumed,
                                            [&](double f) { tick(0.25 + 0.4 * f, "Choosing"); });
-    const double share = safe_share(within, choice);
-    const Positions relaxed = shifted(start, within.shift, share);
+    const Shares shares = safe_shares(within, choice);
+    const Positions relaxed = shifted(start, within, shares);
     const Prepared p = prepared(faces, relaxed, at, near, assumed.normal_steps);
     const CandidateMaker maker(faces, relaxed, at, near, p.normal, p.weight, assumed.deviation);
     stats.weights = choice.weights;
     stats.all_directions = within.noisy;
     stats.rms_before = std::sqrt(choice.before + within.before * within.before * within.noisy);
-    const double turned = share * within.turned_back;
-    stats.rms_after = std::sqrt(choice.after + (within.noisy ? within.after * within.after + turned * turned
-                                                             : share * share * mean_square(within.shift)));
+    stats.rms_after = std::sqrt(choice.after + error_within(within, shares));
     Positions after = maker.blend(choice.weights, [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
     stats.edge = mean_edge_length(faces, after);
     return after;

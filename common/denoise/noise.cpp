@@ -49,14 +49,17 @@ Ratios ratios(const Neighbours& near, std::vector<double> energy) {
     return r;
 }
 
+/// 1 for energies that shape could have, 0 for those of strong noise, beside which texture is nothing.
+double weakness(double energy, double edge) { return std::clamp((0.1 - std::sqrt(energy) / edge) / 0.07, 0.0, 1.0); }
+
 /// Of white noise that is everywhere, from the ratios of energies: see surface_noise(). The spread that the sample of
 /// the mesh has by itself counts for nothing.
-double quiet_energy(const Ratios& r) {
+double quiet_energy(const Ratios& r, double edge) {
     if (r.field.empty()) return 0;
     const double low = r.at(0.1);
     if (!(low > 0)) return 0;
     const double by_chance = 0.05 + 3 / std::sqrt(static_cast<double>(r.field.size()));
-    return low * std::max(0.0, 1 - spread * std::max(0.0, r.at(0.3) / low - 1 - by_chance));
+    return low * std::max(0.0, 1 - weakness(low, edge) * spread * std::max(0.0, r.at(0.3) / low - 1 - by_chance));
 }
 
 struct Smoothed {
@@ -84,7 +87,8 @@ struct Quiet {
 };
 
 /// Small meshes are compared with several samples of noise.
-Quiet quiet_energies(const Faces& faces, const Positions& p, const Incidence& at, const Neighbours& near, int steps) {
+Quiet quiet_energies(const Faces& faces, const Positions& p, const Incidence& at, const Neighbours& near, double edge,
+                     int steps) {
     const Smoothed base = smoothed(faces, p, near, steps);
     const AlongNormals surface(near, p, base.normal, cotangent_weights(faces, at, near, base.positions));
     const int repeats = std::clamp(20000 / std::max(1, near.rows()), 1, 8);
@@ -94,21 +98,19 @@ Quiet quiet_energies(const Faces& faces, const Positions& p, const Incidence& at
         for (Index v = 0; v < near.rows(); ++v)
             for (int c = 1; c < 3; ++c) h[3 * v + c] = gaussian(v, 100 + 2 * repeat + c);
         h = surface.detail(h);
-        mean.first += quiet_energy(ratios(near, squares(h))) / repeats;
+        mean.first += quiet_energy(ratios(near, squares(h)), edge) / repeats;
         h = surface.linear_detail(surface.linear_detail(h));
-        mean.third += quiet_energy(ratios(near, squares(h))) / repeats;
+        mean.third += quiet_energy(ratios(near, squares(h)), edge) / repeats;
     }
     return mean;
 }
 
 /// Deviation along the normals, mesh units.
 double along_normals(const Faces& faces, const Positions& p, const Incidence& at, const Neighbours& near, double edge) {
-    Quiet quiet = quiet_energies(faces, p, at, near, 3);
+    Quiet quiet = quiet_energies(faces, p, at, near, edge, 3);
     // Strong noise needs smoother normals.
-    if (std::sqrt(quiet.third) > 0.12 * edge) quiet = quiet_energies(faces, p, at, near, 8);
-    // It also bends by itself.
-    const double weak = std::clamp((0.25 - std::sqrt(quiet.third) / edge) / 0.15, 0.0, 1.0);
-    const double bends = weak * leak * leak * std::max(0.0, quiet.first - quiet.third);
+    if (std::sqrt(quiet.third) > 0.12 * edge) quiet = quiet_energies(faces, p, at, near, edge, 8);
+    const double bends = weakness(quiet.third, edge) * leak * leak * std::max(0.0, quiet.first - quiet.third);
     return std::sqrt(std::max(0.0, quiet.third - bends));
 }
 

@@ -154,7 +154,7 @@ void smooth_noise(const Positions& p, const Positions& noise, const Neighbours& 
     }
     const Eigen::VectorXd t = least_risk(risk);
     for (int k = 0; k < count; ++k)
-        for (std::size_t i = 0; i < p.size(); ++i) out.shift[i] += t[k] * shift[k][i];
+        for (std::size_t i = 0; i < p.size(); ++i) out.smoothing[i] += t[k] * shift[k][i];
     out.before = std::sqrt(risk.constant);
     out.after = std::sqrt(std::max(0.0, risk.at(t)));
 }
@@ -164,7 +164,7 @@ void smooth_noise(const Positions& p, const Positions& noise, const Neighbours& 
 WithinSurface relax_within_surface(const Faces& faces, const Positions& positions, const Neighbours& near,
                                    const SurfaceNoise& noise, double edge) {
     WithinSurface out;
-    out.shift = Positions(positions.size(), Vec3::Zero());
+    out.smoothing = out.turning = Positions(positions.size(), Vec3::Zero());
     const double deviation = noise.along_normals;
     if (!(deviation > 0)) return out;
     const bool weak = deviation < 0.1 * edge;
@@ -183,13 +183,10 @@ WithinSurface relax_within_surface(const Faces& faces, const Positions& position
         smooth_noise(p, more, near, normal, deviation, low, out);
     }
     Positions q = p;
-    for (std::size_t i = 0; i < p.size(); ++i) q[i] += out.shift[i];
+    for (std::size_t i = 0; i < p.size(); ++i) q[i] += out.smoothing[i];
     const Positions r =
         turned_back(faces, q, near, normal, out.noisy || deviation > 0.15 * edge ? Bad{0.8, 0.0577} : Bad{0.5, 0.03});
-    Positions turning(p.size());
-    for (std::size_t i = 0; i < p.size(); ++i) turning[i] = r[i] - q[i];
-    out.turned_back = std::sqrt(mean_square(turning));
-    for (std::size_t i = 0; i < p.size(); ++i) out.shift[i] = r[i] - p[i];
+    for (std::size_t i = 0; i < p.size(); ++i) out.turning[i] = r[i] - q[i];
     return out;
 }
 

@@ -7,12 +7,12 @@ namespace multires {
 /// How vertices are to move within the surface, which removes noise that goes in all directions and turns back the
 /// faces that it folded.
 struct WithinSurface {
-    Positions shift;         ///< #V by 3
-    bool noisy = false;      ///< noise goes in all directions; otherwise only folded faces were turned back
-    bool perhaps = false;    ///< the sampling looks like it, but may be irregular by nature
-    double before = 0;       ///< RMS error within the surface, estimated: 0 unless `noisy` or `perhaps`
-    double after = 0;        ///< the same once all of `shift` is applied, without the turning back
-    double turned_back = 0;  ///< RMS shift that was made for folded faces
+    Positions smoothing;   ///< #V by 3: shifts that remove the noise
+    Positions turning;     ///< #V by 3: shifts that turn folded and thin faces back, after those
+    bool noisy = false;    ///< noise goes in all directions; otherwise only folded faces were turned back
+    bool perhaps = false;  ///< the sampling looks like it, but may be irregular by nature
+    double before = 0;     ///< RMS error within the surface, estimated: 0 unless `noisy` or `perhaps`
+    double after = 0;      ///< the same once `smoothing` is applied
 };
 
 /// Whether there is noise within the surface cannot be seen where the sampling is irregular: it is believed if the
