@@ -12,7 +12,8 @@ from PIL import Image
 NAMES = {f["python_name"]: f["name"] for f in FILTERS}
 MOVING = [name for name in FILTER_IDS if name.startswith("apply_coord")]
 # What MeshLab puts back when a preview ends: positions, colours and quality; not layers, texture coordinates, custom data.
-PREVIEWED = [*MOVING, "compute_scalar_multires_detail_per_vertex", "apply_attributes_multires_band"]
+PREVIEWED = [*MOVING, "compute_scalar_multires_detail_per_vertex", "compute_scalar_multires_difference_per_vertex",
+             "apply_attributes_multires_band"]  # fmt: skip
 
 # What brings the mesh back. From 2022.02 on, closing the dialog leaves what is previewed.
 CANCEL = [("press", "Preview"), ("press", "Close")] if LATER_GUI else [("press", "Close")]
