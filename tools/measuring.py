@@ -72,12 +72,17 @@ def normals(v, f):
 
 
 def with_noise(v, f, kind, deviation, seed):
-    """Gaussian noise along the normals with this deviation in edge lengths; kind "all directions" has it in all, and
-    "impulsive" at one vertex in seven only. The same seed makes the same noise."""
+    """Gaussian noise along the normals with this deviation in edge lengths; kind "all directions" has it in all, "one
+    axis" along a fixed one, "impulsive" at one vertex in seven only; "quantised" rounds the coordinates. The same seed makes the same noise."""
     random = np.random.default_rng(seed)
     size = deviation * edge_length(v, f)
     if kind == "all directions":
         return v + size * random.normal(size=v.shape)
+    if kind == "one axis":
+        return v + size * random.normal(size=len(v))[:, None] * np.array([0.36, 0.48, 0.8])
+    if kind == "quantised":  # rounded to a grid whose errors have this deviation in each coordinate
+        step = size * 12**0.5
+        return np.round(v / step + 0.37) * step - 0.37 * step
     amount = size * random.normal(size=len(v))
     if kind == "impulsive":
         amount[random.random(len(v)) > 1 / 7] = 0
