@@ -24,7 +24,8 @@ MORE = {
     "apply_attributes_multires_band": [{"quality": True}, {"quality": True, "method": "spline", "measure": True}],
     "apply_attributes_multires_band_custom": [{"method": "spline", "measure": True}],
     "apply_attributes_multires_denoise": [{"quality": True, "custom": True}],
-    "apply_coord_multires_denoise": [{"method": "soft threshold"}, {"method": "hard threshold", "keep_volume": True}],
+    "apply_coord_multires_denoise": [{"method": "normal field"}, {"method": "soft threshold"},
+                                     {"method": "hard threshold", "keep_volume": True}],
     "compute_scalar_multires_difference_per_vertex": [{"wavelength": 0.2}],
     "generate_multires_texcoord": [{"projection": "planar"}, {"projection": "existing"}],
     **{f"apply_coord_multires_{name}": [{"method": "spline", "measure": True}, {"method": "pyramid"}]
