@@ -216,7 +216,8 @@ def test_filter_without_parameters_does_something(name):
     report = ms.apply_filter(name)
     check_outcome(ms, name, before, report)
     moved = report["largest_displacement"] / diagonal(ms.current_mesh())
-    assert moved <= 1e-12 if name == EQUALIZER else 1e-4 < moved < 0.1
+    nothing_to_do = name in (EQUALIZER, "apply_coord_multires_denoise")  # the bunny has no noise
+    assert moved <= 1e-12 if nothing_to_do else 1e-4 < moved < 0.1
 
 
 @pytest.mark.parametrize("name, parameters", [(EQUALIZER, {}), (ENHANCE, {"gain": 1}), (UNSHARP, {"xi": 1})])
@@ -312,6 +313,8 @@ def test_results_do_not_depend_on_the_number_of_threads(threads, tmp_path):
 
 def with_gains(name):
     """Parameters that make the filter move something on any mesh."""
+    if name == "apply_coord_multires_denoise":
+        return {"method": "normal field"}  # by default it leaves meshes without noise as they are
     return {f"gain_{i}": 0 for i in range(1, 9)} if name == EQUALIZER else {}
 
 
