@@ -4,16 +4,25 @@
 
 namespace multires {
 
-std::shared_ptr<const Pyramid> pyramid_of(const Layer& layer, const PyramidOptions& options, Session& session,
-                                          Report& report) {
+std::shared_ptr<const Pyramid> pyramid_of(const Layer& layer, const PyramidOptions& options, PyramidCache& pyramids,
+                                          const Progress& progress, Report& report) {
     require_usable(layer.mesh);
     check(options);
-    const bool reused = session.pyramid && session.pyramid->hash() == content_hash(layer, options);
-    if (!reused) session.pyramid = std::make_shared<const Pyramid>(layer, options, session.progress.part(0, 0.9));
-    report.add("pyramid_reused", reused);
-    report.add("locked_vertices", static_cast<int>(session.pyramid->hierarchy().irregular));
-    report.add("unreferenced_vertices", static_cast<int>(session.pyramid->hierarchy().isolated));
-    return session.pyramid;
+    std::shared_ptr<const Pyramid> pyramid = pyramids.find(content_hash(layer, options));
+    report.add("pyramid_reused", pyramid != nullptr);
+    if (!pyramid) {
+        pyramids.make_room(shape_hash(layer.mesh.positions, layer.mesh.faces));
+        pyramid = std::make_shared<const Pyramid>(layer, options, progress.part(0, 0.9));
+        pyramids.put(pyramid);
+    }
+    report.add("locked_vertices", static_cast<int>(pyramid->hierarchy().irregular));
+    report.add("unreferenced_vertices", static_cast<int>(pyramid->hierarchy().isolated));
+    return pyramid;
+}
+
+std::shared_ptr<const Pyramid> pyramid_of(const Layer& layer, const PyramidOptions& options, Session& session,
+                                          Report& report) {
+    return pyramid_of(layer, options, session.pyramids, session.progress, report);
 }
 
 }  // namespace multires

@@ -4,7 +4,7 @@
 #include "base/progress.h"
 #include "base/report.h"
 #include "mesh/layer.h"
-#include "pyramid/pyramid.h"
+#include "pyramid/cache.h"
 
 #include <memory>
 #include <optional>
@@ -48,9 +48,10 @@ class Spline;
 /// The part of a call that outlives it: progress, and what travels with the mesh.
 struct Session {
     Progress progress;
-    /// The pyramid kept with the layer by an earlier call of any of our plugins; may be null or stale (its content
-    /// hash decides). A filter that builds one puts it here; the host keeps it with the mesh if the call succeeds.
-    std::shared_ptr<const Pyramid> pyramid;
+    /// The pyramids kept with the layer by earlier calls of any of our plugins; some may be stale (their content hashes
+    /// decide). A filter that builds one puts it here; the host keeps what is here with the mesh, whether the call
+    /// succeeds or not: that is no change of the document.
+    PyramidCache pyramids;
     /// The systems of the calibrated filters (bands/spline.h), kept in the same way.
     std::shared_ptr<const Spline> spline;
     /// The shape the layer had before an earlier call of any of our plugins first moved it; null if none did. The host
@@ -58,10 +59,14 @@ struct Session {
     std::shared_ptr<const Original> original;
 };
 
-/// The session's pyramid if it was built from this very layer with these options, a new one otherwise (put into the
-/// session). Tells `report` which: pyramid_reused.
+/// The session's pyramid that was built from this very layer with these options, or a new one (put into the session).
+/// Before it is built, what the layer can no longer use is let go (see PyramidCache). Tells `report` which:
+/// pyramid_reused.
 /// @throws InputError for a mesh without faces, with NaN, ... (see require_usable) or options out of range
 std::shared_ptr<const Pyramid> pyramid_of(const Layer& layer, const PyramidOptions& options, Session& session,
                                           Report& report);
+/// The same with a cache, and the progress of the whole.
+std::shared_ptr<const Pyramid> pyramid_of(const Layer& layer, const PyramidOptions& options, PyramidCache& pyramids,
+                                          const Progress& progress, Report& report);
 
 }  // namespace multires

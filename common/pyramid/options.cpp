@@ -1,10 +1,9 @@
 #include "pyramid/options.h"
 
+#include "base/hash.h"
 #include "mesh/adjacency.h"
 
-#define XXH_INLINE_ALL
-#include <xxhash.h>
-
+#include <array>
 #include <cstdio>
 #include <stdexcept>
 
@@ -77,22 +76,15 @@ void mark_features(Rings& rings, const Layer& layer, Features features, double a
 }
 
 ContentHash content_hash(const Layer& layer, const PyramidOptions& options) {
-    XXH3_state_t state;
-    XXH3_128bits_reset(&state);
-    const auto add = [&](const void* data, std::size_t bytes) {
-        if (bytes) XXH3_128bits_update(&state, data, bytes);
-    };
+    Hash hash;
     PyramidOptions o = effective(options);
     visit_options(o, [&](const PyramidOption&, const auto& field) {
-        const double value = static_cast<double>(field);
-        add(&value, sizeof value);
+        hash.add(std::array<double, 1>{static_cast<double>(field)});
     });
-    const ContentHash shape = shape_hash(layer.mesh.positions, layer.mesh.faces);
-    add(shape.data(), sizeof shape);
-    if (o.features.from == Features::non_faux_edges) add(layer.faux_edges.data(), layer.faux_edges.size());
-    if (o.features.from == Features::selected_edges) add(layer.selected_edges.data(), layer.selected_edges.size());
-    const XXH128_hash_t hash = XXH3_128bits_digest(&state);
-    return {hash.low64, hash.high64};
+    hash.add(shape_hash(layer.mesh.positions, layer.mesh.faces));
+    if (o.features.from == Features::non_faux_edges) hash.add(layer.faux_edges);
+    if (o.features.from == Features::selected_edges) hash.add(layer.selected_edges);
+    return hash.bits128();
 }
 
 }  // namespace multires

@@ -77,7 +77,7 @@ std::vector<LevelInfo> describe(const Hierarchy& h, const Coefficients& c, const
 }  // namespace
 
 Pyramid::Pyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress)
-    : hash_(content_hash(layer, options)) {
+    : hash_(content_hash(layer, options)), shape_(shape_hash(layer.mesh.positions, layer.mesh.faces)) {
     const BlockReuse reuse;
     const Progress building = progress.part(0.05, 0.6);
     progress.report(0, "Finding the neighbours");
@@ -93,6 +93,8 @@ Pyramid::Pyramid(const Layer& layer, const PyramidOptions& options, const Progre
     hierarchy_.positions = Positions();  // the layer has them
     coefficients_ = scheme_->analyse(std::move(f), options.scheme.storage);
     levels_ = describe(hierarchy_, coefficients_, wavelength);
+    bytes_ = sizeof(Pyramid) + multires::bytes(hierarchy_) + scheme_->bytes() + multires::bytes(coefficients_) +
+             levels_.capacity() * sizeof(LevelInfo);
     progress.report(1, "Pyramid built");
 }
 

@@ -25,7 +25,10 @@ public:
     const Coefficients& coefficients() const { return coefficients_; }  ///< see widen()
     /// Levels 0..L: one more than there are sets of details; the last is the base.
     const std::vector<LevelInfo>& levels() const { return levels_; }
-    const ContentHash& hash() const { return hash_; }
+    const ContentHash& hash() const { return hash_; }    ///< content_hash() of layer and options
+    const ContentHash& shape() const { return shape_; }  ///< shape_hash() of the layer
+    /// Memory it holds.
+    std::size_t bytes() const { return bytes_; }
 
     /// Largest distance between the input's vertices and what synthesis without any gain gives, mesh units.
     /// @param positions  of the layer
@@ -35,11 +38,12 @@ public:
     Positions synthesise(std::vector<double> gain) const;
 
 private:
-    ContentHash hash_;
+    ContentHash hash_, shape_;
     Hierarchy hierarchy_;
     std::unique_ptr<Scheme> scheme_;
     Coefficients coefficients_;
     std::vector<LevelInfo> levels_;
+    std::size_t bytes_ = 0;
 };
 
 }  // namespace multires

@@ -132,6 +132,7 @@ SchemeRow roy_scheme() {
 SchemeRow guskov_scheme() {
     Capabilities can;
     can.local_frames = true;
+    can.linear_precision = false;  // of evens beside odds of the boundary, which are predicted along it
     return {"Guskov",
             "details turn with the coarser surface, so that fine structure follows when coarse structure is "
             "changed",

@@ -23,6 +23,16 @@ void widen(Subband& subband) {
     subband.single = Array<float>();
 }
 
+std::size_t bytes(const Coefficients& coefficients) {
+    const auto of = [](const auto& values) { return values.capacity() * sizeof(values[0]); };
+    std::size_t sum = of(coefficients.base.values) + of(coefficients.level);
+    for (const std::vector<Subband>& level : coefficients.level) {
+        sum += of(level);
+        for (const Subband& band : level) sum += of(band.values.values) + of(band.single) + of(band.local);
+    }
+    return sum;
+}
+
 Vec3 Scheme::normal(const Subband& subband, Index row, const Positions& positions) const {
     if (!subband.local.empty() && subband.local[row]) return {0, 0, 1};
     const Rings& rings = *subband.rings;

@@ -37,6 +37,9 @@ struct Coefficients {
     std::vector<std::vector<Subband>> level;  ///< level[k] leads from size[k+1] to size[k] vertices; 0 is the finest
 };
 
+/// Memory coefficients hold, in bytes.
+std::size_t bytes(const Coefficients& coefficients);
+
 /// What of a synthesis is not as usual: by default it leads from the base to the input's level and changes no detail.
 struct Synthesis {
     std::size_t from = 0, to = 0;   ///< levels; 0 is the input's. `from` is that of `values`
@@ -51,6 +54,7 @@ inline Synthesis starting_at(std::size_t level, const Field& values) { return {l
 struct Capabilities {
     bool local_frames = false;        ///< details of positions turn with the coarser surface; without, it is linear
     bool critically_sampled = false;  ///< as many coefficients as values, no details of vertices that stay
+    bool linear_precision = true;     ///< linear functions on planes have no details inside if the operator says so
     bool starts_anywhere = true;      ///< takes Synthesis::from and values
     bool even_rings = true;           ///< reads Level::even: the hierarchy must hold it
 };

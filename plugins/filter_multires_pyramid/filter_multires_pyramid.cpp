@@ -5,8 +5,6 @@
 #include "filters/layers/levels.h"
 #include "filters/shape/band_filters.h"
 
-#include <cmath>
-
 // Filters that build a pyramid and show what is in it.
 
 namespace multires::plugin {
@@ -16,33 +14,29 @@ ComputePyramidOptions compute_defaults(const Layer* /*layer*/) { return {}; }
 
 void bind_compute(Parameters& p, ComputePyramidOptions& o) { bind_pyramid(p, o.pyramid); }
 
-/// About half way down the pyramid: a level keeps three quarters of its vertices.
-GenerateLevelOptions level_defaults(const Layer* layer) {
-    GenerateLevelOptions o;
-    o.level = 0;
-    if (!layer) return o;
-    const double vertices = static_cast<double>(layer->mesh.positions.size());
-    if (vertices > o.pyramid.hierarchy.base_vertices)
-        o.level = static_cast<int>(std::log(vertices / o.pyramid.hierarchy.base_vertices) / std::log(4 / 3.0) / 2);
-    return o;
-}
+/// With the level as a dialog can show it.
+struct LevelRow : GenerateLevelOptions {
+    int shown = automatic;
+    static constexpr int automatic = -1;
+};
 
-Result run_level(const Layer& layer, const GenerateLevelOptions& options, Session& session) {
-    GenerateLevelOptions o = options;
-    o.at_most = o.level == level_defaults(&layer).level;  // some meshes have fewer levels than their size promises
-    return generate_level(layer, o, session);
-}
+LevelRow level_defaults(const Layer* /*layer*/) { return {}; }
 
-void bind_level(Parameters& p, GenerateLevelOptions& o) {
-    p.add("level", &o.level, "Level",
-          "0 is the mesh itself; each level has about three quarters of the vertices of the one before. A "
-          "number beyond the last level is an error that names the last.")
-        .at_least(0)
-        .derived();
+void bind_level(Parameters& p, LevelRow& o) {
+    p.add("level", &o.shown, "Level",
+          "0 is the mesh itself; Build Pyramid lists the vertices of the others. -1: the level that comes nearest to a "
+          "quarter of the vertices. A number beyond the last level is an error that names the last.")
+        .at_least(LevelRow::automatic);
     p.add("smoothed", &o.smoothed, "Smoothed positions",
           "Place the vertices where the coarse level of the pyramid has them (presmoothed) instead of where they "
           "are in the mesh.");
     bind_pyramid(p, o.pyramid);
+}
+
+Result run_level(const Layer& layer, const LevelRow& row, Session& session) {
+    GenerateLevelOptions o = row;
+    if (row.shown != LevelRow::automatic) o.level = row.shown;
+    return generate_level(layer, o, session);
 }
 
 struct DetailRow : DetailOptions {

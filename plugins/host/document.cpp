@@ -137,7 +137,7 @@ struct PendingResult::Parts {
             for (const std::string& name : layer->left_out())
                 result.report.say("Custom attribute \"" + name +
                                   "\" has a type that cannot be copied to the new layer.");
-        if (kept.pyramid || kept.original || kept.spline) keeper.emplace(document, model.cm);
+        if (!kept.pyramids.all().empty() || kept.original || kept.spline) keeper.emplace(document, model.cm);
     }
 
     MeshModel& model;

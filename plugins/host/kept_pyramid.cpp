@@ -69,6 +69,14 @@ Kept kept(const CMeshO& mesh) {
     return slot ? slot->kept : Kept();
 }
 
+Borrowed::Borrowed(CMeshO& mesh, PyramidCache& to) : mesh_(mesh), pyramids_(to) {
+    if (Slot* slot = find_slot(mesh)) to = std::exchange(slot->kept.pyramids, {});
+}
+
+Borrowed::~Borrowed() {
+    if (Slot* slot = find_slot(mesh_)) slot->kept.pyramids = std::move(pyramids_);
+}
+
 void release_deleted(const MeshDocument& document) noexcept {
     Slots* const list = find_slots(document);
     if (!list) return;

@@ -9,19 +9,19 @@
 
 namespace multires::host {
 
-/// What a mesh keeps between calls; each may be null.
+/// What a mesh keeps between calls; each may be null or empty.
 struct Kept {
-    std::shared_ptr<const Pyramid> pyramid;
+    PyramidCache pyramids;
     std::shared_ptr<const Original> original;
     std::shared_ptr<const Spline> spline;
 };
 
 /// Where it keeps it: a named per-mesh attribute of vcg, which is not copied with the mesh. It is found by name, so it
 /// is common to all our plugins in a process, although each has its own copy of this code; the name says which layout
-/// of Pyramid and Original it points to.
+/// of Kept and what it holds it points to.
 ///
 /// Hosts save it in no file. A VMI file from elsewhere may hold bytes under that name, as an attribute of another type:
-/// they are never read, kept() gives nulls and Keeper puts a new slot in their place.
+/// they are never read, kept() gives nothing and Keeper puts a new slot in their place.
 ///
 /// vcg meshes do not free their attributes, so the document has a list of them (a child of the QObject, by name again),
 /// and what deleted meshes kept is released at the next call of a filter, or when the document is destroyed: not at
@@ -31,6 +31,21 @@ struct Kept {
 /// The pyramid's code belongs to the plugin that built it, and hosts unload plugins before they delete meshes; our
 /// plugins are therefore linked to stay loaded (-z nodelete).
 Kept kept(const CMeshO& mesh);
+
+/// What a mesh keeps, in the hands of one call: pyramids that the call lets go of are gone at once, for the mesh does
+/// not hold on to them. They go back when this ends, however that is: a cache that holds more, less or the same is no
+/// change of the document. The original stays with the mesh.
+class Borrowed {
+public:
+    explicit Borrowed(CMeshO& mesh, PyramidCache& to);
+    ~Borrowed();
+    Borrowed(const Borrowed&) = delete;
+    Borrowed& operator=(const Borrowed&) = delete;
+
+private:
+    CMeshO& mesh_;
+    PyramidCache& pyramids_;
+};
 
 /// Releases what deleted meshes of the document kept. Cost: number of meshes.
 void release_deleted(const MeshDocument& document) noexcept;

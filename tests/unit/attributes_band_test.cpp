@@ -182,10 +182,10 @@ TEST(AttributeBands, ReusesTheKeptPyramid) {
     const Layer& layer = two_bands().layer;
     Session session;
     filter_attribute_bands(layer, of_quality(BandMode::low_pass), session);
-    const auto kept = session.pyramid;
-    ASSERT_TRUE(kept);
+    const auto kept = session.pyramids.all();
+    ASSERT_EQ(kept.size(), 1u);
     filter_attribute_bands(layer, of_quality(BandMode::stop_band), session);
-    EXPECT_EQ(session.pyramid, kept);
+    EXPECT_EQ(session.pyramids.all(), kept);
 }
 
 TEST(AttributeBands, RefusesWhatMakesNoSense) {

@@ -148,4 +148,29 @@ TEST(DenoiseThreshold, KeepsThePyramidForTheNextCall) {
     EXPECT_EQ(*first.positions, *second.positions);
 }
 
+// F1: the world's z was the normal of all rows of details that are stored in its axes.
+TEST(DenoiseThreshold, AnOpenScanTurnsWithItsResult) {
+    Mesh mesh = noisy_scan(0.2);  // its upper half
+    Faces faces;
+    for (const Face& f : mesh.faces)
+        if (std::all_of(f.begin(), f.end(), [&](Index v) { return mesh.positions[v].z() > 0.1; })) faces.push_back(f);
+    mesh.faces = faces;
+    const double diagonal = box_diagonal(layer_of(mesh));
+    for (DenoiseOptions options : every_way())
+        for (const bool normal_only : {true, false})
+            for (const bool per_level : {true, false})
+                for (const bool keep_volume : {false, true}) {
+                    options.normal_only = normal_only;
+                    options.per_level = per_level;
+                    options.keep_volume = keep_volume;
+                    for (const Vec3& axis : {Vec3(1, 0, 0), Vec3(0.3, -0.8, 0.5)}) {
+                        Motion motion;
+                        motion.rotation = Eigen::AngleAxisd(1.57, axis.normalized()).toRotationMatrix();
+                        Positions expected = denoised(mesh, options);
+                        for (Vec3& p : expected) p = motion(p);
+                        EXPECT_LE(largest_distance(denoised(motion(mesh), options), expected), 1e-9 * diagonal);
+                    }
+                }
+}
+
 }  // namespace multires

@@ -17,10 +17,10 @@ public:
     template <class Options>
     Result run(Result (*filter)(const Layer&, const Options&, Session&), const Options& options) {
         Session session;
-        session.pyramid = pyramid_;
+        session.pyramids = pyramids_;
         session.original = original_;
         Result result = filter(layer, options, session);
-        pyramid_ = session.pyramid;
+        pyramids_ = session.pyramids;
         original_ = original_after(original_.get(), layer.mesh, *result.positions);
         layer.mesh.positions = *result.positions;
         return result;
@@ -29,7 +29,7 @@ public:
     Layer layer;
 
 private:
-    std::shared_ptr<const Pyramid> pyramid_;
+    PyramidCache pyramids_;
     std::shared_ptr<const Original> original_;
 };
 

@@ -4,6 +4,7 @@
 #include "measure/measure.h"
 #include "mesh/validation.h"
 
+#include <algorithm>
 #include <functional>
 #include <set>
 
@@ -17,10 +18,10 @@ Layer small_layer() { return layer_of(shapes::scan(600)); }
 
 std::shared_ptr<const Pyramid> kept_by(const Layer& layer, const PyramidOptions& options, Session& session) {
     Report report;
-    const auto before = session.pyramid;
+    const auto before = session.pyramids.all();
     const auto pyramid = pyramid_of(layer, options, session, report);
-    EXPECT_EQ(pyramid, session.pyramid);
-    EXPECT_EQ(value<bool>(report, "pyramid_reused"), pyramid == before);
+    EXPECT_EQ(pyramid, session.pyramids.all().front());
+    EXPECT_EQ(value<bool>(report, "pyramid_reused"), std::count(before.begin(), before.end(), pyramid) == 1);
     return pyramid;
 }
 
@@ -69,7 +70,7 @@ TEST(KeptPyramid, IsNeverReusedAfterAChangeOfTheMesh) {
         change(layer);
         EXPECT_NE(kept_by(layer, {}, session), first);
         EXPECT_NE(kept_by(original, {}, session), first);  // the old one is gone; this is a third
-        EXPECT_EQ(session.pyramid->hash(), first->hash());
+        EXPECT_EQ(session.pyramids.all().front()->hash(), first->hash());
     }
 }
 
@@ -104,7 +105,7 @@ TEST(KeptPyramid, IsNeverReusedAfterAChangeOfItsOptions) {
         Session session;
         const auto first = kept_by(layer, {}, session);
         EXPECT_NE(kept_by(layer, options, session), first);
-        EXPECT_TRUE(hashes.insert(session.pyramid->hash()).second);
+        EXPECT_TRUE(hashes.insert(session.pyramids.all().front()->hash()).second);
     }
     PyramidOptions options;
     options.features.from = Features::angle;
@@ -159,7 +160,7 @@ TEST(KeptPyramid, RefusesOptionsOutOfRange) {
         Session session;
         Report report;
         EXPECT_THROW(pyramid_of(layer, wrong[i], session, report), InputError) << "case " << i;
-        EXPECT_FALSE(session.pyramid);
+        EXPECT_TRUE(session.pyramids.all().empty());
     }
 }
 
@@ -189,7 +190,7 @@ TEST(ComputePyramid, ItsTableIsThatOfTheLevels) {
         ASSERT_EQ(vertices.size(), rows);
         ASSERT_EQ(wavelength.size(), rows);
         ASSERT_EQ(detail.size(), rows);
-        const Hierarchy& h = session.pyramid->hierarchy();
+        const Hierarchy& h = session.pyramids.all().front()->hierarchy();
         for (std::size_t k = 0; k < rows; ++k) {
             EXPECT_EQ(vertices[k], h.size[k]);
             const double mean = mean_edge_length(level_mesh(h, mesh.faces, k).faces, in_places(mesh, h));
@@ -216,8 +217,8 @@ TEST(ComputePyramid, OneVertexPerLevelGivesAShortTable) {
     EXPECT_EQ(vertices.front(), mesh.positions.size());
     EXPECT_EQ(vertices.back(), 100);
     // Wavelengths between the measured levels follow the true ones.
-    const auto& levels = session.pyramid->levels();
-    const Hierarchy& h = session.pyramid->hierarchy();
+    const auto& levels = session.pyramids.all().front()->levels();
+    const Hierarchy& h = session.pyramids.all().front()->hierarchy();
     for (std::size_t k = 0; k < levels.size(); k += 50) {
         const double mean = mean_edge_length(level_mesh(h, mesh.faces, k).faces, in_places(mesh, h));
         EXPECT_NEAR(levels[k].wavelength, 2 * mean, 0.02 * mean) << "level " << k;
@@ -252,7 +253,8 @@ TEST(GenerateLevel, IsASubsetOfTheInput) {
         options.pyramid.hierarchy.base_vertices = 10;
         Report ignored;
         const int last = static_cast<int>(pyramid_of(layer, options.pyramid, session, ignored)->levels().size()) - 1;
-        for (options.level = 0; options.level <= last; options.level += std::max(1, last / 3)) {
+        for (int level = 0; level <= last; level += std::max(1, last / 3)) {
+            options.level = level;
             const Result result = generate_level(layer, options, session);
             ASSERT_TRUE(result.layer && !result.positions);
             const DerivedMesh& derived = *result.layer;
@@ -280,6 +282,102 @@ TEST(GenerateLevel, IsASubsetOfTheInput) {
         options.level = -1;
         EXPECT_THROW(generate_level(layer, options, session), InputError);
     }
+}
+
+// F2: it was the base, a hundred vertices.
+TEST(GenerateLevel, WithoutALevelHasAboutAQuarterOfTheVertices) {
+    std::vector<std::pair<std::string, Mesh>> large{{"scan", shapes::scan(3000)},
+                                                    {"sphere", shapes::irregular_sphere(9000)},
+                                                    {"terrain", shapes::terrain(60).mesh},
+                                                    {"plane", shapes::plane(50)},
+                                                    {"block", shapes::block(24)},
+                                                    {"torus", shapes::torus(80, 40)},
+                                                    {"cylinder", shapes::open_cylinder(60, 50)}};
+    for (const auto& [name, mesh] : large) {
+        ASSERT_GT(mesh.positions.size(), 2000u) << name;
+        for (const Grouping grouping : {Grouping::independent_sets, Grouping::sequential})
+            for (const int sets : {1, 2, 3, 4, 7, 100}) {
+                SCOPED_TRACE(name + ", " + std::to_string(sets) + " sets");
+                GenerateLevelOptions options;
+                options.pyramid.hierarchy.grouping = grouping;
+                options.pyramid.hierarchy.sets_per_level = sets;
+                options.pyramid.hierarchy.level_ratio = sets == 1 ? 0 : 1.0 / sets;
+                Session session;
+                const Result result = generate_level(layer_of(mesh), options, session);
+                const double share = count(result.report, "vertices") / static_cast<double>(mesh.positions.size());
+                EXPECT_GE(share, 0.2);
+                EXPECT_LE(share, 1 / 3.0);
+                EXPECT_EQ(result.layer->source_vertex.size(),
+                          static_cast<std::size_t>(count(result.report, "vertices")));
+                EXPECT_GT(number(result.report, "wavelength"), 0);
+                if (sets > 2) continue;
+                options.smoothed = true;  // levels are close enough here
+                EXPECT_EQ(generate_level(layer_of(mesh), options, session).layer->faces, result.layer->faces);
+                options.level = count(result.report, "level");
+                options.smoothed = false;
+                EXPECT_EQ(generate_level(layer_of(mesh), options, session).layer->faces, result.layer->faces);
+            }
+    }
+}
+
+// ---- the cache
+// --------------------------------------------------------------------------------------------------------
+
+TEST(PyramidCache, FiltersUsedInTurnFindTheirs) {
+    const Layer layer = small_layer();
+    Session session;
+    const auto coarse = kept_by(layer, {}, session), fine = kept_by(layer, fine_levels(), session);
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(kept_by(layer, {}, session), coarse);
+        EXPECT_EQ(kept_by(layer, fine_levels(), session), fine);
+    }
+}
+
+TEST(PyramidCache, KeepsNoMoreThanTwiceTheLargestAndTheNewest) {
+    const Layer layer = small_layer();
+    Session session;
+    shapes::Random random(3);
+    for (int i = 0; i < 40; ++i) {
+        PyramidOptions options;
+        options.hierarchy.sets_per_level = 1 + static_cast<int>(random.bits() % 4);
+        options.scheme.storage = random.chance(0.5) ? Storage::single : Storage::wide;
+        options.scheme.row = static_cast<int>(random.bits() % schemes().size());
+        const auto pyramid = kept_by(layer, options, session);
+        std::size_t sum = 0, largest = 0;
+        for (const auto& p : session.pyramids.all()) sum += p->bytes(), largest = std::max(largest, p->bytes());
+        EXPECT_LE(sum, 2 * largest);
+        EXPECT_EQ(session.pyramids.bytes(), sum);
+        EXPECT_EQ(session.pyramids.all().front(), pyramid);
+    }
+    EXPECT_GT(session.pyramids.all().size(), 1u);
+}
+
+TEST(PyramidCache, LetsGoOfOtherShapesBeforeItBuilds) {
+    Layer layer = small_layer();
+    Session session;
+    std::weak_ptr<const Pyramid> first = kept_by(layer, {}, session);
+    layer.mesh.positions[0] *= 1.01;
+    bool gone = false;
+    session.progress = Progress([&](int, const char*) {
+        gone = first.expired();
+        return true;
+    });
+    kept_by(layer, {}, session);
+    EXPECT_TRUE(gone);
+    EXPECT_EQ(session.pyramids.all().size(), 1u);
+}
+
+TEST(PyramidCache, LazyAndFloatTakeLess) {
+    const Layer layer = layer_of(shapes::scan(5000));
+    const auto bytes = [&](int scheme, Storage storage) {
+        PyramidOptions options;
+        options.scheme.row = scheme;
+        options.scheme.storage = storage;
+        return Pyramid(layer, options, Progress()).bytes();
+    };
+    const int guskov = PyramidOptions().scheme.row, lazy = scheme_named("Lazy");
+    EXPECT_LT(bytes(lazy, Storage::wide), 0.6 * bytes(guskov, Storage::wide));
+    EXPECT_LT(bytes(guskov, Storage::single), 0.8 * bytes(guskov, Storage::wide));
 }
 
 }  // namespace multires

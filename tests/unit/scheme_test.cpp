@@ -220,8 +220,7 @@ TEST(Scheme, LinearFunctionsOnPlanesHaveNoDetailInside) {
         if (op == Operator::umbrella || op == Operator::cotangent_clamped) continue;  // not linear precise
         for (const Mesh& mesh : {shapes::plane(20), shapes::disk(10)})
             for (const int scheme : every_scheme()) {
-                // Evens that are predicted from predicted odds see the boundary's.
-                if (can(scheme).local_frames && !can(scheme).critically_sampled) continue;
+                if (!can(scheme).linear_precision) continue;
                 SCOPED_TRACE(scheme_name(scheme));
                 HierarchyOptions options;
                 options.base_vertices = 30;

@@ -1,8 +1,10 @@
 #include "filters/layers/levels.h"
 
+#include "measure/measure.h"
 #include "mesh/validation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 namespace multires {
@@ -27,6 +29,42 @@ void report_counts(const InputCounts& c, Report& report) {
     report.add("boundary_loops", static_cast<int>(c.boundary_loops));
     report.add("inconsistent_edges", static_cast<int>(c.inconsistent_edges));
     report.add("components", static_cast<int>(c.components));
+}
+
+/// The first `count` places, which are those of a level or lie between it and the next.
+struct Cut {
+    std::size_t level = 0;
+    Index count = 0;
+};
+
+Cut given_level(const Hierarchy& h, int level) {
+    const int last = static_cast<int>(h.levels.size());
+    require(level >= 0 && level <= last,
+            "level must be between 0 and " + std::to_string(last) + ", the number of levels of this mesh");
+    return {static_cast<std::size_t>(level), h.size[level]};
+}
+
+Cut automatic_level(const Hierarchy& h, bool whole_levels) {
+    const auto share = [&](Index count) {  // of the vertices that faces use
+        return static_cast<double>(count - h.isolated) / std::max<Index>(1, h.vertices() - h.isolated);
+    };
+    Cut best{0, h.size[0]};
+    const auto off = [&](Index count) { return std::abs(std::log(std::max(share(count), 1e-9) / 0.25)); };
+    const auto consider = [&](std::size_t level, Index count) {
+        if (off(count) < off(best.count)) best = {level, count};
+    };
+    for (std::size_t k = 0; k < h.size.size(); ++k) consider(k, h.size[k]);
+    if (whole_levels || (share(best.count) >= 0.2 && share(best.count) <= 1 / 3.0)) return best;
+    for (std::size_t k = 0; k < h.levels.size(); ++k)
+        for (const Index set : h.levels[k].sets) consider(k, h.levels[k].coarse + set);
+    return best;
+}
+
+/// Of a mesh over places.
+double wavelength_of(const Faces& faces, const Hierarchy& h, const Positions& input) {
+    Positions at(input.size());
+    for (Index p = 0; p < h.vertices(); ++p) at[p] = input[h.order[p]];
+    return 2 * mean_edge_length(faces, at);
 }
 
 }  // namespace
@@ -62,23 +100,22 @@ Result generate_level(const Layer& layer, const GenerateLevelOptions& options, S
     Result result;
     const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
     const Hierarchy& h = pyramid->hierarchy();
-    const int last = static_cast<int>(h.levels.size());
-    const int level = options.at_most ? std::min(options.level, last) : options.level;
-    require(level >= 0 && level <= last,
-            "level must be between 0 and " + std::to_string(last) + ", the number of levels of this mesh");
-    const Index count = h.size[level];
-    LevelMesh mesh = level_mesh(h, layer.mesh.faces, level);
+    const Cut cut = options.level ? given_level(h, *options.level) : automatic_level(h, options.smoothed);
+    const bool whole = cut.count == h.size[cut.level];
+    LevelMesh mesh = prefix_mesh(h, layer.mesh.faces, cut.count);
+    const double wavelength =
+        whole ? pyramid->levels()[cut.level].wavelength : wavelength_of(mesh.faces, h, layer.mesh.positions);
     DerivedMesh derived;
-    derived.name = "level " + std::to_string(level);
-    derived.source_vertex.assign(h.order.begin(), h.order.begin() + count);
+    derived.name = (whole ? "level " : "below level ") + std::to_string(cut.level);
+    derived.source_vertex.assign(h.order.begin(), h.order.begin() + cut.count);
     derived.faces = std::move(mesh.faces);
     derived.source_face = std::move(mesh.source_face);
     if (options.smoothed)
-        derived.positions = positions_of(pyramid->scheme().synthesise(pyramid->coefficients(), down_to(level)));
-    result.report.add("level", level);
-    result.report.add("vertices", static_cast<int>(count));
+        derived.positions = positions_of(pyramid->scheme().synthesise(pyramid->coefficients(), down_to(cut.level)));
+    result.report.add("level", static_cast<int>(cut.level));
+    result.report.add("vertices", static_cast<int>(cut.count));
     result.report.add("faces", static_cast<int>(derived.faces.size()));
-    result.report.add("wavelength", pyramid->levels()[level].wavelength, "mesh units");
+    result.report.add("wavelength", wavelength, "mesh units");
     result.layer = std::move(derived);
     return result;
 }

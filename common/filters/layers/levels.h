@@ -10,11 +10,12 @@ struct ComputePyramidOptions {
 };
 Result compute_pyramid(const Layer& layer, const ComputePyramidOptions& options, Session& session);
 
-/// "Generate level": the mesh of a level as a new layer.
+/// "Generate level": the mesh of a level as a new layer. Without a level, the one whose number of vertices is nearest
+/// to a quarter of the mesh's, in the logarithm; if levels are so far apart that none has between a fifth and a third,
+/// the mesh between two of them that comes nearest (a level goes set by set), unless positions are smoothed.
 struct GenerateLevelOptions {
     PyramidOptions pyramid;
-    int level = 8;         ///< 0 = the input .. number of levels = the base; larger ones are an error
-    bool at_most = false;  ///< take the last level instead of an error if there are not so many
+    std::optional<int> level;  ///< 0 = the input .. number of levels = the base; others are an error
     /// Positions of the coarse level of the pyramid (presmoothed) instead of the input's.
     bool smoothed = false;
 };

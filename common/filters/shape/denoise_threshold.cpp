@@ -92,13 +92,12 @@ Positions by_threshold(const Layer& layer, const DenoiseOptions& options, double
         PyramidOptions o = options.pyramid;
         o.hierarchy.seed += spin;
         // The first hierarchy is the one that is kept; the others are different and thrown away.
-        Session part;
-        part.progress =
-            session.progress.part(static_cast<double>(spin) / options.cycle_spins, (spin + 1.0) / options.cycle_spins);
-        if (spin == 0) part.pyramid = session.pyramid;
+        PyramidCache thrown_away;
         Report unused;
-        const auto pyramid = pyramid_of(layer, o, part, spin == 0 ? report : unused);
-        if (spin == 0) session.pyramid = pyramid;
+        const auto pyramid = pyramid_of(
+            layer, o, spin == 0 ? session.pyramids : thrown_away,
+            session.progress.part(static_cast<double>(spin) / options.cycle_spins, (spin + 1.0) / options.cycle_spins),
+            spin == 0 ? report : unused);
         Thresholding thresholding(*pyramid, layer.mesh.positions, options, given, deviation, confidence);
         const Positions p = thresholding.run();
         for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += (p[i] - mean[i]) / (spin + 1);

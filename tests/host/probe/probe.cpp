@@ -147,18 +147,21 @@ KeepOptions keep_defaults(const Layer*) { return {}; }
 
 void bind_keep(Parameters& p, KeepOptions& o) { p.add("value", &o.value, "Value", "what to keep"); }
 
-/// Keeps a number where a pyramid would be: the adapter does not look inside.
+/// Keeps the pyramid of a triangle whose first coordinates are the number.
 Result keep(const Layer&, const KeepOptions& o, Session& session) {
-    auto number = std::make_shared<const double>(o.value);
-    const auto* address = reinterpret_cast<const Pyramid*>(number.get());
-    session.pyramid = std::shared_ptr<const Pyramid>(std::move(number), address);
+    Layer triangle;
+    triangle.mesh.positions = {{o.value, 0, 0}, {o.value, 1, 0}, {o.value, 0, 1}};
+    triangle.mesh.faces = {{0, 1, 2}};
+    session.pyramids = PyramidCache();
+    session.pyramids.put(std::make_shared<const Pyramid>(triangle, PyramidOptions(), Progress()));
     return {};
 }
 
 Result kept(const Layer&, const KeepOptions&, Session& session) {
     Result r;
-    r.report.add("found", session.pyramid != nullptr);
-    if (session.pyramid) r.report.add("value", *reinterpret_cast<const double*>(session.pyramid.get()));
+    const auto& all = session.pyramids.all();
+    r.report.add("found", !all.empty());
+    if (!all.empty()) r.report.add("value", all.front()->coefficients().base.row(0)[0]);
     return r;
 }
 
