@@ -37,6 +37,7 @@ Vec3 Scheme::normal(const Subband& subband, Index row, const Positions& position
     if (!subband.local.empty() && subband.local[row]) return {0, 0, 1};
     const Rings& rings = *subband.rings;
     const auto at = [&](Index place) { return positions[h_.order[place]]; };
+    if (rings.size(row) == 0) return Vec3::Zero();  // irregular or isolated
     const bool open = rings.kind[row] == RingKind::open;
     return ring_normal(rings.begin(row), rings.size(row), at, open ? at(rings.vertex(row)) : at(rings.begin(row)[0]));
 }

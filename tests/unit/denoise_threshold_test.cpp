@@ -168,7 +168,10 @@ TEST(DenoiseThreshold, AnOpenScanTurnsWithItsResult) {
                         motion.rotation = Eigen::AngleAxisd(1.57, axis.normalized()).toRotationMatrix();
                         Positions expected = denoised(mesh, options);
                         for (Vec3& p : expected) p = motion(p);
-                        EXPECT_LE(largest_distance(denoised(motion(mesh), options), expected), 1e-9 * diagonal);
+                        EXPECT_LE(largest_distance(denoised(motion(mesh), options), expected), 1e-9 * diagonal)
+                            << "scheme " << options.pyramid.scheme.row << ", method "
+                            << static_cast<int>(options.method) << ", presmooth " << options.pyramid.scheme.presmooth
+                            << ", normal only " << normal_only << ", volume " << keep_volume;
                     }
                 }
 }

@@ -362,7 +362,8 @@ TEST(PyramidCache, LetsGoOfOtherShapesBeforeItBuilds) {
         gone = first.expired();
         return true;
     });
-    kept_by(layer, {}, session);
+    Report report;
+    pyramid_of(layer, {}, session, report);
     EXPECT_TRUE(gone);
     EXPECT_EQ(session.pyramids.all().size(), 1u);
 }

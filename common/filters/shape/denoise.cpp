@@ -68,18 +68,36 @@ Positions by_normal_field(const Layer& layer, const DenoiseOptions& o, double gi
     return after;
 }
 
+/// Where volumes are measured from. It makes a difference only if the mesh is open, and then must turn with it: the
+/// surface's centroid, where a box would not.
+Vec3 apex_of(const Mesh& mesh) {
+    Vec3 sum = Vec3::Zero();
+    double area = 0;
+    for (const Face& f : mesh.faces) {
+        const Vec3& a = mesh.positions[f[0]];
+        const Vec3 n = (mesh.positions[f[1]] - a).cross(mesh.positions[f[2]] - a);
+        sum += n;
+        area += n.norm();
+    }
+    const bool open = sum.norm() > 1e-9 * area;
+    return open ? surface(mesh.faces, mesh.positions).centroid : bounding_box(mesh.positions).center();
+}
+
 /// Shifts the vertices along their normals, in the measure of their weights, until the volume is what it was; three
 /// Newton steps.
 void restore_volume(const Mesh& before, const std::vector<double>& weights, Positions& after) {
-    const Vec3 apex = bounding_box(before.positions).center();
+    const Vec3 apex = apex_of(before);
     const double wanted = surface(before.faces, before.positions, apex).volume;
     for (int step = 0; step < 3; ++step) {
         Array<Vec3> normal = vertex_area_vectors(before.faces, after);
+        double sum = 0;
+        for (const Vec3& n : normal) sum += n.norm();
+        const double nothing = 1e-9 * sum / static_cast<double>(after.size());  // rounding, which has no direction
         // A sixth of the sum is how the volume grows with the vertex.
         double gained = 0;
         for (std::size_t i = 0; i < after.size(); ++i) {
             const double length = normal[i].norm(), weight = weights.empty() ? 1 : weights[i];
-            normal[i] = length > 0 ? Vec3(normal[i] * (weight / length)) : Vec3(Vec3::Zero());
+            normal[i] = length > nothing ? Vec3(normal[i] * (weight / length)) : Vec3(Vec3::Zero());
             gained += length * weight / 6;
         }
         if (!(gained > 0)) return;

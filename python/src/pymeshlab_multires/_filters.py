@@ -510,7 +510,7 @@ def build_pyramid(
 
 @also_flat(Pyramid)
 def level_as_layer(
-    ms: MeshSet, *, level: int | None = None, smoothed: bool = False, pyramid: Pyramid | None = None,
+    ms: MeshSet, *, level: int = -1, smoothed: bool = False, pyramid: Pyramid | None = None,
 ) -> LevelAsLayerReport:
     """Makes a new layer with the mesh of one level of the pyramid: a subset of the vertices with all their attributes.
 
@@ -520,9 +520,9 @@ def level_as_layer(
 
     Args:
         ms: the document.
-        level: 0 is the mesh itself; each level has about three quarters of the vertices of the one before. A number
-            beyond the last level is an error that names the last. A whole number, at least 0. None: derived from the
-            mesh.
+        level: 0 is the mesh itself; Build Pyramid lists the vertices of the others. -1: the level that comes nearest to
+            a quarter of the vertices. A number beyond the last level is an error that names the last. A whole number,
+            at least -1.
         smoothed: Place the vertices where the coarse level of the pyramid has them (presmoothed) instead of where they
             are in the mesh.
         pyramid: how the pyramid is built. None: the filter's defaults.
