@@ -88,7 +88,7 @@ TEST(CalibratedBands, SolverIsKeptWithTheMeshAndNeverUsedForAnother) {
     Session session;
     const Positions first = *low_pass(layer, o, session).positions;
     const auto kept = session.spline;
-    EXPECT_FALSE(session.pyramid);
+    EXPECT_TRUE(session.pyramids.all().empty());
     o.cutoff *= 2, o.calibration.order = LowPassOrder::gaussian;
     low_pass(layer, o, session);
     EXPECT_EQ(session.spline, kept);
@@ -129,10 +129,10 @@ TEST(CalibratedBands, EveryUnitMeansTheSameWavelength) {
     auto o = calibrated(LowPassOptions());
     o.unit = Unit::level, o.cutoff = 3;
     const Positions by_level = *low_pass(layer, o, session).positions;
-    ASSERT_TRUE(session.pyramid);
-    o.unit = Unit::vertices, o.cutoff = session.pyramid->levels()[3].vertices;
+    ASSERT_FALSE(session.pyramids.all().empty());
+    o.unit = Unit::vertices, o.cutoff = session.pyramids.all().front()->levels()[3].vertices;
     const Positions by_vertices = *low_pass(layer, o, session).positions;
-    o.unit = Unit::wavelength, o.cutoff = session.pyramid->levels()[3].wavelength;
+    o.unit = Unit::wavelength, o.cutoff = session.pyramids.all().front()->levels()[3].wavelength;
     const Positions by_wave = *low_pass(layer, o, session).positions;
     o.unit = Unit::wavelength_percent, o.cutoff *= 100 / box_diagonal(layer);
     const Positions by_percent = *low_pass(layer, o, session).positions;
