@@ -1,6 +1,7 @@
 #include "host/host_2020.h"
 
 #include "host/apply.h"
+#include "host/fold_2020.h"
 
 #include <QAction>
 
@@ -24,6 +25,7 @@ int Host::postCondition(QAction* action) const { return postcondition(row(table_
 
 void Host::initParameterSet(QAction* action, MeshDocument& document, RichParameterList& list) {
     list = parameters(row(table_, action), document);
+    fold_advanced(row(table_, action));
 }
 
 bool Host::applyFilter(QAction* action, MeshDocument& document, const RichParameterList& list,

@@ -70,9 +70,9 @@ private:
         list.addParam(make_layer_parameter(QString::fromStdString(p.name), arranged(p.hint), other, document_));
     }
 
-    /// As the dialogs of hosts need it. 2020.09 lists all parameters one below the other, without headings or folding.
-    /// Later ones fold the advanced ones away, but not their headings: those get one heading in common, and in all
-    /// hosts their group is part of the label.
+    /// As the dialogs of hosts need it. 2020.09 lists all parameters one below the other, without headings (see
+    /// fold_2020.h). Later ones fold the advanced ones away, but not their headings: those get one heading in common,
+    /// and in all hosts their group is part of the label.
     Hint arranged(Hint hint) {
         if (hint.advanced) {
             if (!hint.group.empty()) hint.label = hint.group + ": " + hint.label;

@@ -61,7 +61,7 @@ private:
             {"set", [this] { return set(word(1), word(2)); }},        // LABEL, text or name of a choice
             {"copy", [this] { return copy(word(1), word(2)); }},      // FROM, TO
             {"picture", [this] { return picture(word(1)); }},         // FILE: the screen, when it has come to rest
-            {"dialog", [this] { return describe_dialog(word(1)); }},  // FILE: the filter's dialog
+            {"dialog", [this] { return describe_dialog(word(1)); }},  // FILE: the filter's dialog, likewise
         };
         const auto found = commands.find(verb);
         if (found == commands.end()) fail("no command " + verb);
@@ -252,8 +252,13 @@ private:
     bool describe_dialog(const QString& name) {
         QDockWidget* dock = dialog();
         if (!dock) return false;
+        const QImage now = dock->grab().toImage();
+        const bool rests = now == before_;
+        before_ = now;
+        if (!rests) return false;
+        before_ = QImage();
         QFile file(name + ".txt");
-        if (!dock->grab().save(name + ".png") || !file.open(QIODevice::WriteOnly)) fail("cannot write " + name);
+        if (!now.save(name + ".png") || !file.open(QIODevice::WriteOnly)) fail("cannot write " + name);
         QTextStream out(&file);
         for (const auto* label : dock->findChildren<QLabel*>())
             if (label->isVisible()) out << label->text() << "\n";
