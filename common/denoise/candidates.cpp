@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<int, 6> local_steps = {4, 6, 9, 15, 25, 40};
 constexpr int noise_steps = 12;
 /// Length of the push that measures the response of a normal field, which is not linear, in samples of the noise.
-constexpr double push = 0.3;
+constexpr double push_length = 0.3;
 constexpr double rounding = 1e-4;  ///< differences of normals that coordinates in single precision make
 constexpr int fit_steps = 8;       ///< more would follow the normals further and lose volume
 
@@ -125,6 +125,11 @@ Positions CandidateMaker::field(const Positions& from, double strength, const st
 
 Response CandidateMaker::field_response(double strength, const std::function<void(double)>& tick) const {
     const Positions after = field(positions_, strength, [&](double f) { tick(f / 2); });
+    // The field does not answer a push and its opposite alike, so the side must not depend on the
+    // winding of the faces, as the normals do.
+    double side = 0;
+    for (std::size_t i = 0; i < probe_.size(); ++i) side += normal_[i].dot(positions_[i] - positions_[0]);
+    const double push = side < 0 ? -push_length : push_length;
     Positions pushed = positions_;
     for (std::size_t i = 0; i < probe_.size(); ++i) pushed[i] += push * probe_[i] * normal_[i];
     const Positions other = field(pushed, strength, [&](double f) { tick(0.5 + f / 2); });
