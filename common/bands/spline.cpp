@@ -89,7 +89,7 @@ std::vector<MeasuredTransmission> measure_transmission(const Spline& spline, con
             for (int c = 0; c < 3; ++c) {
                 const double cosine = normal[i][c] / steepest;
                 if (!(std::abs(cosine) < 1) || normal[i].isZero()) continue;
-                const double weight = spline.system().matrices().mass[i] * (1 - cosine * cosine);
+                const double weight = spline.solver().matrices().mass[i] * (1 - cosine * cosine);
                 for (int part = 0; part < 2; ++part) {
                     const std::size_t value = 6 * static_cast<std::size_t>(i) + 2 * c + part;
                     along += weight * f[value] * g[value];

@@ -30,7 +30,7 @@ public:
 
     const ContentHash& hash() const { return hash_; }
     double mean_edge() const { return mean_edge_; }
-    const System& system() const { return system_; }
+    const System& solver() const { return system_; }
 
     /// Low pass of any channels. Constants stay exactly; vertices without faces and held ones keep their values.
     /// @param f, out  #V by width, not the same

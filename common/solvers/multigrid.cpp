@@ -10,7 +10,8 @@
 namespace multires {
 namespace {
 
-constexpr Index coarsest = 300;
+/// Rows that are solved directly, also by a dense complex LU: of a small mesh, and of the coarsest level.
+constexpr Index small = 300, coarsest = 120;
 
 /// Level 0 from the mesh's matrices.
 Multigrid::Level finest(const Stiffness& c, const Array<std::uint8_t>& active, double mass_scale) {
@@ -92,7 +93,7 @@ Multigrid::Multigrid(const Stiffness& c, const Array<std::uint8_t>& active, doub
         Level& fine = levels_.back();
         fill_jacobi(fine);
         progress.report(1 - 1 / static_cast<double>(1 + levels_.size()), "Setting up the solver");
-        if (fine.rows <= coarsest || levels_.size() > 30) return;
+        if (fine.rows <= (levels_.size() == 1 ? small : coarsest) || levels_.size() > 30) return;
         fine.largest_stiffness =
             largest_eigenvalue(fine, fine.stiffness, fine.stiffness_diagonal, fine.stiffness_jacobi);
         if (!fine.mass.empty())

@@ -69,12 +69,12 @@ struct Solved {
 
 /// Symmetric positive definite and complex symmetric systems on a mesh, for any mass and stiffness after one set-up.
 ///
-///     const System system(mesh);
+///     const System solver(mesh);
 ///     Positions x = mesh.positions;
-///     system.low_pass(2 * pi / cutoff, mesh.positions, x);
+///     solver.low_pass(2 * pi / cutoff, mesh.positions, x);
 ///
 /// Conjugate gradients, preconditioned by one V-cycle (Multigrid); below 300 vertices that is a direct solve by Eigen's
-/// SimplicialLDLT (SparseLU if complex). The number of steps hardly depends on the number of vertices.
+/// SimplicialLDLT (a dense LU if complex). The number of steps hardly depends on the number of vertices.
 /// Set-up and a step are linear in #V. Memory: about 250 bytes a vertex, and up to 300 more while it solves.
 /// The same bits for any number of threads. Several solves at the same time are allowed.
 class System {

@@ -3,8 +3,8 @@
 #include "base/parallel.h"
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <Eigen/SparseCholesky>
-#include <Eigen/SparseLU>
 
 #include <type_traits>
 #include <utility>
@@ -16,6 +16,9 @@ namespace {
 /// [largest / damped, largest].
 constexpr int smoothing_steps = 2;
 constexpr double damped = 5;
+
+/// The coarsest level has a few hundred rows, unless groups find no neighbours any more.
+constexpr Index most_dense_rows = 1000;
 
 using Level = Multigrid::Level;
 
@@ -78,24 +81,41 @@ template <bool Z>
 class Coarsest {
 public:
     using Scalar = std::conditional_t<Z, std::complex<double>, double>;
+    /// Complex ones are dense: these are small, and Eigen's SparseLU crashes where memory runs out.
+    using Matrix =
+        std::conditional_t<Z, Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>, Eigen::SparseMatrix<Scalar>>;
 
     Coarsest(const Level& level, const std::complex<double>& z, double s) {
         const auto entry = [&](float m, float c) {
             if constexpr (Z) return z * static_cast<double>(m) + s * static_cast<double>(c);
             if constexpr (!Z) return z.real() * static_cast<double>(m) + s * static_cast<double>(c);
         };
-        std::vector<Eigen::Triplet<Scalar>> entries;
-        for (Index i = 0; i < level.rows; ++i) {
-            const Scalar diagonal = entry(level.mass_diagonal[i], level.stiffness_diagonal[i]);
-            entries.emplace_back(i, i, diagonal == Scalar(0) ? Scalar(1) : diagonal);
-            for (Index k = level.offset[i]; k < level.offset[i + 1]; ++k)
-                entries.emplace_back(i, level.column[k],
-                                     entry(level.mass.empty() ? 0.0F : level.mass[k], level.stiffness[k]));
+        if constexpr (Z) {
+            if (level.rows > most_dense_rows) return;  // what could not be grouped, next to nothing but a diagonal
+            Matrix a = Matrix::Zero(level.rows, level.rows);
+            for (Index i = 0; i < level.rows; ++i) {
+                for (Index k = level.offset[i]; k < level.offset[i + 1]; ++k)
+                    a(i, level.column[k]) = entry(level.mass.empty() ? 0.0F : level.mass[k], level.stiffness[k]);
+                const Scalar diagonal = entry(level.mass_diagonal[i], level.stiffness_diagonal[i]);
+                a(i, i) = diagonal == Scalar(0) ? Scalar(1) : diagonal;
+            }
+            factor_.compute(a);
+            good_ = true;
         }
-        Eigen::SparseMatrix<Scalar> a(level.rows, level.rows);
-        a.setFromTriplets(entries.begin(), entries.end());
-        factor_.compute(a);
-        good_ = factor_.info() == Eigen::Success;
+        if constexpr (!Z) {
+            std::vector<Eigen::Triplet<Scalar>> entries;
+            for (Index i = 0; i < level.rows; ++i) {
+                const Scalar diagonal = entry(level.mass_diagonal[i], level.stiffness_diagonal[i]);
+                entries.emplace_back(i, i, diagonal == Scalar(0) ? Scalar(1) : diagonal);
+                for (Index k = level.offset[i]; k < level.offset[i + 1]; ++k)
+                    entries.emplace_back(i, level.column[k],
+                                         entry(level.mass.empty() ? 0.0F : level.mass[k], level.stiffness[k]));
+            }
+            Matrix a(level.rows, level.rows);
+            a.setFromTriplets(entries.begin(), entries.end());
+            factor_.compute(a);
+            good_ = factor_.info() == Eigen::Success;
+        }
     }
     bool good() const { return good_; }
 
@@ -120,8 +140,7 @@ public:
     }
 
 private:
-    using Matrix = Eigen::SparseMatrix<Scalar>;
-    std::conditional_t<Z, Eigen::SparseLU<Matrix>, Eigen::SimplicialLDLT<Matrix>> factor_;
+    std::conditional_t<Z, Eigen::PartialPivLU<Matrix>, Eigen::SimplicialLDLT<Matrix>> factor_;
     bool good_ = false;
 };
 

@@ -1,9 +1,8 @@
 #include "document_snapshot.h"
 
+#include "host/kept_pyramid.h"
 #include "vcg/custom.h"
 
-#include <algorithm>
-#include <array>
 #include <cstring>
 
 namespace multires::host_tests {
@@ -86,15 +85,12 @@ void mesh(const CMeshO& m, Snapshot& s, Bytes& out) {
     for (int i = 0; i < 16; ++i) out.value(m.shot.Extrinsics.Rot().V()[i]);
     out.value(m.shot.Intrinsics.FocalMm);
     s.storage.push_back(m.vert.data()), s.storage.push_back(m.face.data());
-    bool keeps = false;
-    for (const vcg::PointerToAttribute& a : m.mesh_attr) {
-        // Two shared pointers, each of them two addresses; see host/kept_pyramid.h.
-        std::array<const void*, 4> kept{};
-        std::memcpy(kept.data(), a._handle->DataBegin(), std::min<std::size_t>(a._sizeof, sizeof kept));
-        s.storage.insert(s.storage.end(), kept.begin(), kept.end());
-        keeps = keeps || kept[0];
-    }
-    s.pyramids.push_back(keeps);
+    for (const vcg::PointerToAttribute& a : m.mesh_attr) s.storage.push_back(a._handle);
+    const host::Kept kept = host::kept(m);
+    s.storage.push_back(kept.original.get());
+    s.cached.push_back(kept.spline.get());
+    for (const auto& pyramid : kept.pyramids.all()) s.cached.push_back(pyramid.get());
+    s.caches.push_back(kept.spline || !kept.pyramids.all().empty());
 }
 
 }  // namespace

@@ -31,10 +31,15 @@ CHANGES = {
 
 @pytest.fixture
 def mesh(tmp_path):
-    """The bunny: large enough for MeshLab to show it smooth from the start, as it shows everything after a filter."""
+    """The bunny: large enough for MeshLab to show it smooth from the start, as it shows everything after a filter. With
+    some noise, or Denoise would leave it alone."""
     path = tmp_path / "mesh.ply"
     ms = pymeshlab.MeshSet()
     ms.load_new_mesh(str(pathlib.Path(pymeshlab.__file__).parent / "tests/sample_meshes/bunny.obj"))
+    clean = ms.current_mesh()
+    box = np.linalg.norm(np.ptp(clean.vertex_matrix(), axis=0))
+    noise = np.random.default_rng(1).normal(size=(clean.vertex_number(), 3))
+    ms.add_mesh(pymeshlab.Mesh(clean.vertex_matrix() + 1e-3 * box * noise, clean.face_matrix()))
     ms.save_current_mesh(str(path))
     return path
 

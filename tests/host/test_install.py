@@ -44,7 +44,8 @@ def check_plugins_work(folder, root, display):
             ms = pymeshlab.MeshSet()
             ms.create_sphere()
             assert "levels" in ms.apply_filter("compute_multires_pyramid")
-            for name in ("apply_coord_multires_low_pass", "apply_coord_multires_denoise"):
+            ms.compute_coord_by_function(x="x + 0.01 * sin(57 * y * z)")
+            for name in ("apply_coord_multires_denoise", "apply_coord_multires_low_pass"):
                 assert ms.apply_filter(name)["largest_displacement"] > 0
         """
         subprocess.run([sys.executable, "-c", textwrap.dedent(script), *plugins], check=True)

@@ -28,8 +28,8 @@ double share(const Spline& spline, const Array<double>& f, const Array<double>& 
     double along = 0, norm = 0;
     for (std::size_t i = 0; i < f.size(); ++i)
         if (in(i)) {
-            along += spline.system().matrices().mass[i] * f[i] * g[i];
-            norm += spline.system().matrices().mass[i] * f[i] * f[i];
+            along += spline.solver().matrices().mass[i] * f[i] * g[i];
+            norm += spline.solver().matrices().mass[i] * f[i] * f[i];
         }
     return along / norm;
 }
@@ -83,8 +83,8 @@ double share_at_cutoff(const Spline& spline, const Mesh& mesh, double cutoff, co
         spline.low_pass({LowPassOrder::second, cutoff}, ConstRows(f, 1), Rows(g, 1), "cutoff", {});
         for (std::size_t i = 0; i < f.size(); ++i)
             if (in(mesh.positions[i])) {
-                along += spline.system().matrices().mass[i] * f[i] * g[i];
-                norm += spline.system().matrices().mass[i] * f[i] * f[i];
+                along += spline.solver().matrices().mass[i] * f[i] * g[i];
+                norm += spline.solver().matrices().mass[i] * f[i] * f[i];
             }
     }
     return along / norm;
