@@ -2,12 +2,15 @@
 
 #include "given.h"
 
+#include <set>
+
 namespace multires::plugin {
 
 /// Parameters of one call, and what is special about them.
 struct Variant {
     std::string name;
     std::map<std::string, double> values;
+    std::string changed = "";  ///< the parameter that is not at its default; empty: none, or several
 };
 
 /// Calls that between them take every way through a filter on a small mesh: the defaults with a pyramid of several
@@ -26,9 +29,27 @@ inline std::vector<Variant> variants(const Filter& filter, const Layer& layer) {
             if (value == d.value) continue;
             Variant v{d.name + "=" + std::to_string(static_cast<int>(value)), base};
             v.values[d.name] = value;
+            v.changed = d.name;
             out.push_back(std::move(v));
         }
     }
+    return out;
+}
+
+/// Those, and every other value of a choice that switches a filter between ways of working (so that with the default,
+/// some other parameters do nothing) with every other value of every other choice and boolean.
+inline std::vector<Variant> crossed_variants(const Filter& filter, const Layer& layer) {
+    const std::vector<Variant> single = variants(filter, layer);
+    const std::set<std::string> switches = {"method", "mode", "target", "scheme"};
+    std::vector<Variant> out = single;
+    for (const Variant& a : single)
+        for (const Variant& b : single) {
+            if (switches.count(a.changed) == 0 || b.changed.empty() || a.changed == b.changed) continue;
+            if (switches.count(b.changed) && b.changed < a.changed) continue;  // once is enough
+            Variant both{a.name + ", " + b.name, a.values};
+            both.values[b.changed] = b.values.at(b.changed);
+            out.push_back(std::move(both));
+        }
     return out;
 }
 

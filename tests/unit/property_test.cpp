@@ -63,6 +63,16 @@ Layer after(Layer layer, const Result& r) {
 
 std::string filter_name(const testing::TestParamInfo<const Filter*>& info) { return info.param->python_name; }
 
+/// How many calls were not refused; a failure if they are few, for then a test says nothing.
+class Accepted {
+public:
+    ~Accepted() { EXPECT_GE(4 * accepted_, 3 * all_) << "of " << all_ << " calls only so many were accepted"; }
+    void count(bool accepted) { ++all_, accepted_ += accepted; }
+
+private:
+    int all_ = 0, accepted_ = 0;
+};
+
 class Properties : public testing::TestWithParam<const Filter*> {
 protected:
     const Filter& filter() const { return *GetParam(); }
@@ -85,8 +95,9 @@ TEST_P(Properties, SameBitsForAnyNumberOfThreadsAndEveryTime) {
 }
 
 TEST_P(Properties, EveryVariantGivesTheSameBitsForOneAndTwoThreads) {
-    const Layer layer = with_data(shapes::scan(1500, {}));
-    for (const Variant& variant : variants(filter(), layer)) {
+    const Layer layer = with_data(shapes::scan(400, {}));
+    Accepted accepted;
+    for (const Variant& variant : crossed_variants(filter(), layer)) {
         SCOPED_TRACE(variant.name);
         std::vector<double> results[2];
         for (const int threads : {1, 2}) {
@@ -95,6 +106,7 @@ TEST_P(Properties, EveryVariantGivesTheSameBitsForOneAndTwoThreads) {
             if (result) results[threads - 1] = fixtures::numbers(*result);
         }
         EXPECT_EQ(results[0], results[1]);
+        accepted.count(!results[0].empty());
     }
 }
 
@@ -198,8 +210,20 @@ TEST(Commuting, PairsOfFiltersThatReadNothingTheOtherWritesGiveTheSameInBothOrde
 
 namespace {
 
-/// Of the box diagonal, or of the range of an attribute; pyramids stored as float have that precision.
-double tolerance_of(const Variant& variant) { return variant.name == "storage=1" ? 1e-7 : 1e-9; }
+bool has(const Variant& variant, const std::string& parameter, double value) {
+    const auto at = variant.values.find(parameter);
+    return at != variant.values.end() && at->second == value;
+}
+
+/// Of the box diagonal, or of the range of an attribute. Pyramids stored as float round the details of some five levels
+/// to 6e-8 of their lengths each. Calibrated bands are solved to 2e-7 of the first residual, by a V-cycle in single
+/// precision whose groups ties decide: at most 7e-9 of the diagonal was found.
+double tolerance_of(const Filter& filter, const Variant& variant) {
+    if (has(variant, "storage", 1)) return 3e-7;
+    const bool bands = std::any_of(filter.returns.begin(), filter.returns.end(),
+                                   [](const Returned& r) { return r.key == "solver_reused"; });
+    return bands && has(variant, "method", 1) ? 1e-8 : 1e-9;
+}
 
 /// Bits of the edges (0, 1), (1, 2), (2, 0) of a face whose corners 1 and 2 change places.
 std::uint8_t edges_of_reversed(std::uint8_t edges) { return (edges & 2) | (edges & 1) << 2 | (edges & 4) >> 2; }
@@ -280,28 +304,67 @@ static bool applies(const Placing& place, const Filter& filter, const Variant& v
     if (filter.python_name == "generate_multires_texcoord") return !turned;  // projects along the axes
     // Percent of the box, which has the world's axes; or a default that is a length.
     if (filter.python_name == "generate_multires_adaptive_reconstruction")
-        return keeps_box && (place.scale == 1 || variant.name != "unit=0");
+        return keeps_box && (place.scale == 1 || !has(variant, "unit", 0));
     if (filter.python_name == "compute_scalar_multires_difference_per_vertex") return !turned_over;  // signed
-    if (variant.name == "signed_normal=1") return !turned_over;
+    if (has(variant, "signed_normal", 1)) return !turned_over;
     return true;
 }
 
-TEST_P(Properties, ResultsMoveTurnScaleAndMirrorWithTheMesh) {
-    const Layer layer = with_data(shapes::scan(1000, {}));
-    const Vec3 box = [&] {
-        Vec3 low = layer.mesh.positions[0], high = low;
-        for (const Vec3& p : layer.mesh.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
-        return Vec3(high - low);
-    }();
-    for (const Variant& variant : variants(filter(), layer)) {
-        const auto here = run_unless_absurd(filter(), layer, variant);
+namespace {
+
+/// The half of a closed mesh that lies behind an oblique plane: open, and in no way aligned with the axes.
+Mesh half(const Mesh& mesh) {
+    const auto behind = [&](Index v) { return mesh.positions[v].dot(Vec3(0.8, 0.36, 0.48)) < 0; };
+    Mesh out;
+    std::vector<Index> number(mesh.positions.size(), -1);
+    for (Face f : mesh.faces) {
+        if (!std::all_of(f.begin(), f.end(), behind)) continue;
+        for (Index& v : f) {
+            if (number[v] < 0) {
+                number[v] = static_cast<Index>(out.positions.size());
+                out.positions.push_back(mesh.positions[v]);
+            }
+            v = number[v];
+        }
+        out.faces.push_back(f);
+    }
+    return out;
+}
+
+double diagonal(const Mesh& mesh) {
+    Vec3 low = mesh.positions[0], high = low;
+    for (const Vec3& p : mesh.positions) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    return (high - low).norm();
+}
+
+void expect_results_move_with(const Filter& filter, const Layer& layer, const std::vector<Variant>& ways) {
+    Accepted accepted;
+    for (const Variant& variant : ways) {
+        const auto here = run_unless_absurd(filter, layer, variant);
+        accepted.count(here.has_value());
         if (!here) continue;
         for (const Placing& place : placings()) {
-            if (!applies(place, filter(), variant)) continue;
+            if (!applies(place, filter, variant)) continue;
             SCOPED_TRACE(variant.name + ", " + place.name);
-            expect_placed(place, *here, run(filter(), place(layer), variant.values), box.norm(), tolerance_of(variant));
+            expect_placed(place, *here, run(filter, place(layer), variant.values), diagonal(layer.mesh),
+                          tolerance_of(filter, variant));
         }
     }
+}
+
+}  // namespace
+
+TEST_P(Properties, ResultsMoveTurnScaleAndMirrorWithAClosedMesh) {
+    const Layer layer = with_data(shapes::scan(400, {}));
+    expect_results_move_with(filter(), layer, crossed_variants(filter(), layer));
+}
+
+TEST_P(Properties, ResultsMoveTurnScaleAndMirrorWithAnOpenMesh) {
+    const Layer layer = with_data(half(shapes::scan(700, {})));
+    // Adaptive reconstruction to an error bound, or by the mean error, takes a few other vertices of an open mesh in
+    // other axes: rounding decides between errors that are nearly the same.
+    const bool adaptive = filter().python_name == "generate_multires_adaptive_reconstruction";
+    expect_results_move_with(filter(), layer, adaptive ? variants(filter(), layer) : crossed_variants(filter(), layer));
 }
 
 INSTANTIATE_TEST_SUITE_P(AllPlugins, Properties, testing::ValuesIn(all_filters()), filter_name);
