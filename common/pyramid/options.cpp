@@ -4,6 +4,7 @@
 #include "mesh/adjacency.h"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <stdexcept>
 
@@ -50,8 +51,10 @@ void check(const PyramidOptions& options) {
     PyramidOptions o = effective(options);
     visit_options(o, [](const PyramidOption& option, const auto& field) {
         const double value = static_cast<double>(field);
-        require(value >= option.least && value <= option.most,
-                option.name + " must be between " + number(option.least) + " and " + number(option.most));
+        const std::string range = std::isfinite(option.most)
+                                      ? "between " + number(option.least) + " and " + number(option.most)
+                                      : "at least " + number(option.least);
+        require(value >= option.least && value <= option.most, option.name + " must be " + range);
     });
 }
 

@@ -6,6 +6,7 @@
 #include "mesh/shape_hash.h"
 #include "schemes/table.h"
 
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -57,6 +58,7 @@ struct PyramidOption {
     double least = 0, most = 1;             ///< range, inclusive
     std::vector<std::string> choices = {};  ///< names of the values 0, 1, ... of a choice
     std::string group = "Pyramid";          ///< heading in dialogs
+    bool degrees = false;                   ///< it is an angle
 };
 
 /// The tooltip of the choice of schemes, from their table.
@@ -115,14 +117,22 @@ void visit_options(PyramidOptions& o, const Visit& visit) {
                  "level of its own.",
                  0, 0.99},
           level_ratio);
-    visit(Option{"base_vertices", "Base vertices", "Vertices at which the pyramid stops.", 4, 1000000000},
+    visit(Option{"base_vertices", "Base vertices", "Vertices at which the pyramid stops.", 4,
+                 std::numeric_limits<double>::infinity()},
           base_vertices);
     visit(Option{"length_weight", "Even spacing",
                  "Weight of edge length against the quadric error when vertices are chosen: 0 keeps vertices where the "
                  "surface bends, 1 keeps them evenly spaced.",
                  0, 1000},
           length_weight);
-    visit(Option{"normal_limit", "Normal limit", "Degrees by which removing a vertex may turn a face at most.", 1, 180},
+    visit(Option{"normal_limit",
+                 "Normal limit",
+                 "Degrees by which removing a vertex may turn a face at most.",
+                 1,
+                 180,
+                 {},
+                 "Pyramid",
+                 true},
           normal_limit);
     visit(Option{"features",
                  "Sharp edges",
@@ -139,7 +149,8 @@ void visit_options(PyramidOptions& o, const Visit& visit) {
                  0.01,
                  179.99,
                  {},
-                 "Features"},
+                 "Features",
+                 true},
           feature_angle);
     // Not for people: other hierarchies for averaging, and what adaptive reconstruction does differently.
     visit(Option{"seed", "", "", -2147483648.0, 2147483647.0}, seed);

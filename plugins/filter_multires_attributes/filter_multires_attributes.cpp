@@ -34,7 +34,7 @@ void bind_relaxation(Parameters& p, AttributeRelaxationOptions& o) {
           "Share of each step that is taken: 1 replaces a value by the mean around it.")
         .between(1e-6, 1)
         .in("Relaxation");
-    p.add("operator", Choice(o.op, operator_names), "Relaxation operator",
+    p.add("operator", Choice(o.op, pyramid_option("operator").choices), "Relaxation operator",
           "Weights of the neighbours, from the geometry. Delaunay cotangents: means in the strict sense, that keep "
           "linear functions on planes. Cotangents: those of the paper, which may be negative on bad triangles. The "
           "umbrella ignores geometry.")

@@ -6,6 +6,10 @@
 #include "filters/original.h"
 #include "filters/region.h"
 #include "pyramid/band.h"
+#include "pyramid/options.h"
+
+#include <cmath>
+#include <type_traits>
 
 /// Bindings of the option structs that several filters share, and the citations of their info texts.
 namespace multires::plugin {
@@ -18,71 +22,43 @@ inline const char* const cite_roy =
     "<br>See <i>Roy, Foufou, Koschan, Truchetet, Abidi</i>, "
     "<b>\"Multiresolution Analysis for Irregular Meshes\"</b>, SPIE Photonics Technologies 2003.";
 
-inline const std::vector<std::string> operator_names = {
-    "umbrella",           "cotangent",         "cotangent clamped",
-    "cotangent Delaunay", "second difference", "second difference with flaps",
-};
+/// The field of an option of pyramids as a parameter's.
+template <class Value>
+Field field_of(const PyramidOption& option, Value& value) {
+    if constexpr (std::is_enum_v<Value>) {
+        return Choice(value, option.choices);
+    } else if constexpr (std::is_same_v<Value, int>) {
+        return option.choices.empty() ? Field(&value) : Field(Choice(value, option.choices));
+    } else if constexpr (std::is_same_v<Value, double>) {
+        return option.degrees ? Field(Angle{&value}) : Field(&value);
+    } else {
+        return &value;
+    }
+}
+
+/// An option of pyramids as a parameter: name, texts and range are those of pyramid/options.h.
+template <class Value>
+void bind_option(Parameters& p, const PyramidOption& option, Value& value, const std::string& group) {
+    Parameter& parameter = p.add(option.name, field_of(option, value), option.label, option.tooltip);
+    if (option.choices.empty() && std::isfinite(option.most)) parameter.between(option.least, option.most);
+    if (option.choices.empty() && !std::isfinite(option.most)) parameter.at_least(option.least);
+    parameter.advanced(group);
+}
 
 inline void bind_features(Parameters& p, Features& features, double& angle) {
-    const char* group = "Features";
-    p.add("features", Choice(features, {"none", "by angle", "edges not faux", "selected edges"}), "Sharp edges",
-          "Edges that are not smoothed across: none; those where the normals of the two faces differ by more than "
-          "the feature angle; those not marked as faux; those selected on their faces.")
-        .advanced(group);
-    p.add("feature_angle", Angle{&angle}, "Feature angle",
-          "Degrees between the normals of two faces above which their edge is sharp.")
-        .between(0.01, 179.99)
-        .advanced(group);
+    const char* const group = "Features";
+    bind_option(p, pyramid_option("features"), features, group);
+    bind_option(p, pyramid_option("feature_angle"), angle, group);
 }
 
 inline void bind_operator(Parameters& p, Operator& op, const char* group) {
-    p.add("operator", Choice(op, operator_names), "Operator",
-          "Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape best; "
-          "cotangent weights are "
-          "faster and shrink; the umbrella ignores geometry and lets vertices drift.")
-        .advanced(group);
+    bind_option(p, pyramid_option("operator"), op, group);
 }
 
 inline void bind_pyramid(Parameters& p, PyramidOptions& o) {
-    const char* group = "Pyramid";
-    p.add("scheme", Choice(o.scheme.row, scheme_names()), "Scheme", scheme_tooltip()).advanced(group);
-    bind_operator(p, o.scheme.op, group);
-    p.add("presmooth", &o.scheme.presmooth, "Presmoothing",
-          "Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine noise out of coarse "
-          "levels; 0 is what the papers do.")
-        .between(0, 1)
-        .advanced(group);
-    p.add("grouping", Choice(o.hierarchy.grouping, {"independent sets", "sequential"}), "Levels",
-          "Independent sets: each level removes about a quarter of the vertices, none of them neighbours (Roy). "
-          "Sequential: one vertex after the other, cheapest first (Guskov).")
-        .advanced(group);
-    p.add("storage", Choice(o.scheme.storage, {"double", "float"}), "Storage",
-          "How the pyramid keeps weights and details. Float takes half the memory, for meshes of many millions of "
-          "vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15.")
-        .advanced(group);
-    p.add("sets_per_level", &o.hierarchy.sets_per_level, "Sets per level",
-          "Independent sets only: how many sets, a quarter of the vertices each, a level removes. 2 separates bands "
-          "best; 1 sees most of the noise.")
-        .between(1, 100)
-        .advanced(group);
-    p.add("level_ratio", &o.hierarchy.level_ratio, "Level ratio",
-          "Sequential only: share of its vertices that a level keeps, for example 0.8; 0 makes every vertex a level "
-          "of its own.")
-        .between(0, 0.99)
-        .advanced(group);
-    p.add("base_vertices", &o.hierarchy.base_vertices, "Base vertices", "Vertices at which the pyramid stops.")
-        .at_least(4)
-        .advanced(group);
-    p.add("length_weight", &o.hierarchy.length_weight, "Even spacing",
-          "Weight of edge length against the quadric error when vertices are chosen: 0 keeps vertices where the "
-          "surface bends, 1 keeps them evenly spaced.")
-        .between(0, 1000)
-        .advanced(group);
-    p.add("normal_limit", Angle{&o.hierarchy.normal_limit_degrees}, "Normal limit",
-          "Degrees by which removing a vertex may turn a face at most.")
-        .between(1, 180)
-        .advanced(group);
-    bind_features(p, o.features.from, o.features.angle);
+    visit_options(o, [&](const PyramidOption& option, auto& field) {
+        if (!option.label.empty()) bind_option(p, option, field, option.group);
+    });
 }
 
 inline void bind_region(Parameters& p, Region& region) {

@@ -44,8 +44,9 @@ class Pyramid:
             Default: second difference with flaps.
         presmooth: Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine noise out of
             coarse levels; 0 is what the papers do. A number, 0 to 1. Default: 0.5.
-        grouping: Independent sets: each level removes about a quarter of the vertices, none of them neighbours (Roy).
-            Sequential: one vertex after the other, cheapest first (Guskov). Default: independent sets.
+        grouping: Independent sets: each level removes sets of vertices that are not neighbours, about a quarter of the
+            vertices a set (Roy). Sequential: one vertex after the other, cheapest first (Guskov). Default: independent
+            sets.
         storage: How the pyramid keeps weights and details. Float takes half the memory, for meshes of many millions of
             vertices; unchanged bands then come back to about 1e-8 of the mesh's size instead of 1e-15. Default: double.
         sets_per_level: Independent sets only: how many sets, a quarter of the vertices each, a level removes. 2
