@@ -61,6 +61,11 @@ struct PyramidOption {
     bool degrees = false;                   ///< it is an angle
 };
 
+inline PyramidOption in_degrees(PyramidOption option) {
+    option.degrees = true;
+    return option;
+}
+
 /// The tooltip of the choice of schemes, from their table.
 std::string scheme_tooltip();
 std::vector<std::string> scheme_names();
@@ -125,14 +130,8 @@ void visit_options(PyramidOptions& o, const Visit& visit) {
                  "surface bends, 1 keeps them evenly spaced.",
                  0, 1000},
           length_weight);
-    visit(Option{"normal_limit",
-                 "Normal limit",
-                 "Degrees by which removing a vertex may turn a face at most.",
-                 1,
-                 180,
-                 {},
-                 "Pyramid",
-                 true},
+    visit(in_degrees(
+              {"normal_limit", "Normal limit", "Degrees by which removing a vertex may turn a face at most.", 1, 180}),
           normal_limit);
     visit(Option{"features",
                  "Sharp edges",
@@ -143,14 +142,13 @@ void visit_options(PyramidOptions& o, const Visit& visit) {
                  {"none", "by angle", "edges not faux", "selected edges"},
                  "Features"},
           features);
-    visit(Option{"feature_angle",
-                 "Feature angle",
-                 "Degrees between the normals of two faces above which their edge is sharp.",
-                 0.01,
-                 179.99,
-                 {},
-                 "Features",
-                 true},
+    visit(in_degrees({"feature_angle",
+                      "Feature angle",
+                      "Degrees between the normals of two faces above which their edge is sharp.",
+                      0.01,
+                      179.99,
+                      {},
+                      "Features"}),
           feature_angle);
     // Not for people: other hierarchies for averaging, and what adaptive reconstruction does differently.
     visit(Option{"seed", "", "", -2147483648.0, 2147483647.0}, seed);
