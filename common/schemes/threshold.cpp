@@ -1,5 +1,7 @@
 #include "schemes/threshold.h"
 
+#include "base/median.h"
+
 #include <cstdint>
 #include <utility>
 
@@ -43,9 +45,7 @@ NoiseGains noise_gains(const Hierarchy& hierarchy, const Scheme& scheme) {
 double deviation_by_median(std::vector<double>& values) {
     if (values.empty()) return 0;
     for (double& v : values) v = std::abs(v);
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle / 0.6745;
+    return upper_median(values) / 0.6745;
 }
 
 }  // namespace multires

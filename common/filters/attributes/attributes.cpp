@@ -1,5 +1,6 @@
 #include "filters/attributes/attributes.h"
 
+#include "base/angles.h"
 #include "base/parallel.h"
 #include "mesh/adjacency.h"
 #include "mesh/validation.h"
@@ -45,7 +46,7 @@ Relaxation make_relaxation(const Layer& layer, const AttributeRelaxationOptions&
     relaxation_options.op = options.op;
     r.weights = ring_weights(r.rings, p, relaxation_options);
 
-    const double least_cosine = std::cos(options.corner_angle * std::acos(-1.0) / 180);
+    const double least_cosine = std::cos(radians(options.corner_angle));
     r.step.resize(p.size());
     parallel_for(r.rings.rows(), [&](Index v) {
         r.step[v] = options.strength * (weights.empty() ? 1 : weights[v]);

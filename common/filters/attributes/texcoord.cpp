@@ -1,5 +1,6 @@
 #include "filters/attributes/texcoord.h"
 
+#include "base/angles.h"
 #include "filters/attributes/channels.h"
 #include "measure/measure.h"
 
@@ -10,8 +11,6 @@
 
 namespace multires {
 namespace {
-
-const double pi = std::acos(-1.0);
 
 /// Axes of a projection: u is measured from `a` towards `b`, and `axis` = a x b.
 struct Axes {

@@ -1,5 +1,6 @@
 #include "filters/layers/adaptive.h"
 
+#include "base/angles.h"
 #include "base/parallel.h"
 #include "hierarchy/collapse.h"
 #include "measure/measure.h"
@@ -190,7 +191,7 @@ std::vector<double> importance(const Layer& layer, const Hierarchy& h, const Ada
     });
     add(o.normal, 1, [&] {
         std::vector<double> detail = field_details(h, to_places(h, unit_normals(layer)), o.op);
-        for (double& d : detail) d = 2 * std::asin(std::min(1.0, d / 2)) * 180 / 3.14159265358979323846;
+        for (double& d : detail) d = degrees(2 * std::asin(std::min(1.0, d / 2)));
         return detail;
     });
     if (o.region_of_interest) keep_selection(layer, h, largest);
