@@ -78,7 +78,6 @@ std::vector<LevelInfo> describe(const Hierarchy& h, const Coefficients& c, const
 
 Pyramid::Pyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress)
     : hash_(content_hash(layer, options)), shape_(shape_hash(layer.mesh.positions, layer.mesh.faces)) {
-    const BlockReuse reuse;
     const Progress building = progress.part(0.05, 0.6);
     progress.report(0, "Finding the neighbours");
     Rings rings = vertex_rings(layer.mesh);

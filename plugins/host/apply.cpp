@@ -166,7 +166,6 @@ void apply(const Filter& filter, const RichParameterList& list, MeshDocument& do
            const std::function<void(const Report&)>& prepare) {
     release_deleted(document);
     MeshModel& model = current_mesh(filter, document);
-    const BlockReuse reuse;
     const VcgLayer flat = read_layer(filter, model);
 
     Session session;

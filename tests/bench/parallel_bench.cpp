@@ -1,5 +1,4 @@
-// What base/ does by hand, beside the libraries' own: loops on all threads beside OpenMP, large arrays beside malloc.
-// A pyramid's pattern: loops over levels that shrink by a quarter each, whose arrays live as long as the level.
+// Loops on all threads by base/parallel.h, beside OpenMP: a pyramid's pattern, loops over levels that shrink by a quarter.
 
 #include "base/array.h"
 #include "base/parallel.h"
@@ -7,7 +6,6 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
-#include <memory>
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -50,32 +48,6 @@ void LoopsByOpenMP(benchmark::State& state) {
 BENCHMARK(LoopsByOpenMP)->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 #endif
 
-/// Makes, fills and frees the arrays of all levels, eight at a time.
-/// @param make  double array of n elements, unset
-template <class Make>
-void arrays_of_levels(benchmark::State& state, const Make& make) {
-    for (auto _ : state)
-        for (Index n = 8 * finest; n > coarsest; n = n / 4 * 3) {
-            decltype(make(n)) kept[8];
-            for (auto& array : kept) {
-                array = make(n / 8);
-                double* const data = &array[0];
-                parallel_for(n / 8, [&](Index i) { data[i] = 1; });
-            }
-        }
-}
-
-void ArraysByBlocks(benchmark::State& state) {
-    const BlockReuse reuse;
-    arrays_of_levels(state, [](Index n) { return Array<double>(n); });
-}
-
-void ArraysByMalloc(benchmark::State& state) {
-    arrays_of_levels(state, [](Index n) { return std::unique_ptr<double[]>(new double[n]); });
-}
-
 BENCHMARK(LoopsByPool)->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(ArraysByBlocks)->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
-BENCHMARK(ArraysByMalloc)->MeasureProcessCPUTime()->UseRealTime()->Unit(benchmark::kMillisecond);
 
 }  // namespace
