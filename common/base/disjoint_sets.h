@@ -9,7 +9,7 @@
 namespace multires {
 
 /// Union-find over 0 .. n-1 with parity: two elements of a set are known to lie on the same side or on opposite sides
-/// of it (faces that agree in orientation or not). Whoever has no sides to tell leaves them out.
+/// of it (faces that agree in orientation or not). Callers that need no sides leave them out.
 /// Cost: nearly constant per call (path halving).
 class DisjointSets {
 public:

@@ -19,8 +19,8 @@ namespace {
 /// Without overflow for any count > 0.
 Index chunks_of(Index count, Index grain) { return (count - 1) / grain + 1; }
 
-/// One loop: the chunks are divided into a range for each thread, which it works through from its beginning, so that
-/// what one loop wrote is near when the next reads it; who is done takes from the others' until none is left.
+/// One loop. Each thread owns a contiguous range of chunks, so data stays in its cache from loop to loop; a thread that
+/// is done steals chunks from the others.
 class Job {
 public:
     Job(Index count, Index grain, const void* body, parallel_detail::Chunk chunk, int threads)
@@ -82,7 +82,7 @@ public:
     void run(Job& job, int threads) {
         {
             const std::lock_guard<std::mutex> lock(mutex_);
-            if (job_) threads = 1;  // somebody else's loop has the helpers
+            if (job_) threads = 1;  // another loop has the helpers
             start(threads - 1);
             if (threads > 1) {
                 job_ = &job;
@@ -106,7 +106,7 @@ private:
             try {
                 std::thread([this] { help(); }).detach();
             } catch (const std::system_error&) {
-                return;  // the machine has no thread to give; those there are will do
+                return;  // no more threads to be had; go on with those there are
             }
             ++started_;
         }

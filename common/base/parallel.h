@@ -4,13 +4,13 @@
 
 #include <type_traits>
 
-/// Loops on all cores. The work is cut into fixed chunks, so results cannot depend on how many threads there are; and
-/// nobody waits for a thread that has not started, so that a busy machine costs no more than it must (a fork-join
-/// runtime waits for its whole team at the end of every loop).
+/// Loops on all cores. The work is cut into fixed chunks, so results do not depend on the number of threads. The caller
+/// never waits for a helper that has not started, so a busy machine costs no more than it must (a fork-join runtime
+/// waits for its whole team at the end of every loop).
 namespace multires {
 
-/// Threads a loop uses: as many as the machine runs at once, or the environment variable MULTIRES_THREADS, or what
-/// set_thread_count() said last (0: back to the default).
+/// Threads a loop uses: as many as the machine runs at once, or the environment variable MULTIRES_THREADS, or the
+/// last set_thread_count() (0: back to the default).
 int thread_count();
 void set_thread_count(int count);
 

@@ -19,7 +19,7 @@ public:
     Progress() = default;
     explicit Progress(Callback callback) : callback_(std::move(callback)) {}
 
-    /// Tells the host; throws Cancelled if it answers false.
+    /// Reports to the host; throws Cancelled if it answers false.
     void report(double fraction, const char* what) const {
         const double whole = begin_ + (end_ - begin_) * fraction;
         if (callback_ && !callback_(static_cast<int>(100 * whole), what)) throw Cancelled();

@@ -25,7 +25,7 @@ T chunked_reduce(std::size_t count, const Part& part) {
     return total;
 }
 
-/// The same for what takes in one element at a time: add(T& part, std::size_t i) for all i in turn.
+/// The same, one element at a time: add(T& part, std::size_t i) for all i in turn.
 template <class T, class Add>
 T chunked_fold(std::size_t count, const Add& add) {
     return chunked_reduce<T>(count, [&](std::size_t begin, std::size_t end) {
@@ -35,7 +35,7 @@ T chunked_fold(std::size_t count, const Add& add) {
     });
 }
 
-/// To fold into: the mean of some values, 0 if there are none.
+/// For folds: the mean of some values, 0 if there are none.
 struct Mean {
     double sum = 0, weight = 0;
 
@@ -47,7 +47,7 @@ struct Mean {
     double value() const { return weight > 0 ? sum / weight : 0; }
 };
 
-/// To fold into: the largest and the root mean square of some lengths, given their squares.
+/// For folds: the largest and the root mean square of some lengths, given their squares.
 struct Lengths {
     double largest_square = 0;
     Mean squares;

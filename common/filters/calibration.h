@@ -38,7 +38,7 @@ std::vector<Limit> limits_of(const Layer& layer, const Band& band, double gain, 
                              const PyramidOptions& pyramid, Session& session, Report& report);
 
 /// The session's spline if it is that of this very shape and these features, a new one otherwise (put into the
-/// session). Vertices on feature edges are held. Tells `report` which: solver_reused.
+/// session). Vertices on feature edges are held. Reports which: solver_reused.
 /// @throws InputError  for a mesh that is not usable, and missing marks of features
 std::shared_ptr<const Spline> spline_of(const Layer& layer, const FeatureOptions& features, Session& session,
                                         Report& report);

@@ -60,7 +60,7 @@ struct Session {
 };
 
 /// The session's pyramid that was built from this very layer with these options, or a new one (put into the session).
-/// Before it is built, what the layer can no longer use is let go (see PyramidCache). Tells `report` which:
+/// Before it is built, what the layer can no longer use is let go (see PyramidCache). Reports which:
 /// pyramid_reused.
 /// @throws InputError for a mesh without faces, with NaN, ... (see require_usable) or options out of range
 std::shared_ptr<const Pyramid> pyramid_of(const Layer& layer, const PyramidOptions& options, Session& session,

@@ -19,7 +19,7 @@ enum class RelativeTo {
 /// positions.
 ///
 /// A shape belongs to the original if it is, bit for bit, one that was noted: any other change of positions or faces
-/// in between, even one of which this suite was never told, is thus noticed, and one that was taken back does not
+/// in between, even by another plugin, is thus noticed, and one that was taken back does not
 /// count.
 class Original {
 public:

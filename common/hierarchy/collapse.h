@@ -125,7 +125,7 @@ inline bool faces_stay_good(Index v, Index u, const Ring& ring, const Positions&
     return true;
 }
 
-/// The link condition for v -> u = ring(v)[j], and that nobody's ring becomes too small. `degree(w)` is the present
+/// The link condition for v -> u = ring(v)[j], and that no ring becomes too small. `degree(w)` is the present
 /// size of a ring; `joined(u, w)` knows edges made since the rings were taken.
 template <class RingOf, class Degree, class Joined>
 bool link_allows(const Ring& ring, Index j, const RingOf& ring_of, const Degree& degree, const Joined& joined) {

@@ -40,7 +40,8 @@ struct HierarchyOptions {
 
 /// One level: what is needed to go between the mesh of `fine` vertices and that of `coarse` vertices.
 ///
-/// Vertices have places: 0..coarse-1 are even (they stay), coarse..fine-1 are odd (they go). Rows refer to places.
+/// A vertex's place is its number in hierarchy order: 0..coarse-1 are even (they stay), coarse..fine-1 odd (removed).
+/// Rows hold places.
 struct Level {
     Index fine = 0, coarse = 0;
     /// Row r: ring of the odd vertex coarse + r at the moment it is removed: all entries are smaller than coarse + r.

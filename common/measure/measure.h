@@ -10,7 +10,7 @@
 /// indices must be in range and positions finite. Faces that repeat an index have no area and do no harm.
 namespace multires {
 
-/// The axis-aligned box of all positions, referenced or not; both corners are 0 if there are none.
+/// The axis-aligned box of all positions, referenced or not; both corners are 0 without positions.
 struct Box {
     Vec3 low = Vec3::Zero(), high = Vec3::Zero();
     Vec3 center() const { return 0.5 * (low + high); }

@@ -38,7 +38,7 @@ private:
     /// The common case, consistent orientation and small valence: follow `from` to `to`, in place.
     static bool chain_oriented(Wedge* w, Index n) {
         if (n > 32) return false;
-        Index first = 0;  // a wedge whose `from` is nobody's `to` starts an open ring
+        Index first = 0;  // a wedge whose `from` is no other's `to` starts an open ring
         for (Index i = 0; i < n; ++i) {
             bool entered = false;
             for (Index j = 0; j < n; ++j) {

@@ -13,16 +13,16 @@ struct InputCounts {
     Index vertices = 0, faces = 0;
     Index unreferenced_vertices = 0;  ///< in no face
     Index duplicate_vertices = 0;     ///< at exactly the position of a vertex before them
-    Index degenerate_faces = 0;       ///< with a repeated index; no other count below looks at them
+    Index degenerate_faces = 0;       ///< with a repeated index; left out of all counts below
     Index zero_area_faces = 0;        ///< three different indices, but 2 area <= 1e-10 x sum of squared edge lengths
     Index duplicate_faces = 0;        ///< with the vertices, in any order, of a face before them
     Index boundary_edges = 0;         ///< in one face
-    Index boundary_loops = 0;         ///< boundary edges that hang together; loops that touch count as one
+    Index boundary_loops = 0;         ///< connected boundary edges; loops that touch count as one
     Index non_manifold_edges = 0;     ///< in three faces or more
     Index non_manifold_vertices = 0;  ///< RingKind::irregular: these are never moved or removed
     Index inconsistent_edges = 0;     ///< in two faces that pass it in the same direction
-    Index components = 0;             ///< sets of faces that hang together at vertices
-    Index non_orientable_components = 0;  ///< sets of faces that hang together at edges of two faces, Möbius bands
+    Index components = 0;             ///< sets of faces connected by vertices
+    Index non_orientable_components = 0;  ///< sets of faces connected by edges of two faces; Möbius bands
 };
 
 /// Counts what is unusual.

@@ -7,7 +7,7 @@ namespace multires {
 
 /// The charts of a texture atlas, and the wedge a vertex should get when it takes over a corner of another face.
 ///
-/// A chart is a largest set of faces that hang together at corners with one vertex and one wedge. When a half-edge
+/// A chart is a maximal set of faces connected by corners with one vertex and one wedge. When a half-edge
 /// collapse moves corner k of a face from vertex u to vertex v, the face keeps its place in the atlas: of the wedges
 /// that v has in the face's own chart, the one nearest in (u, v) to the old corner's is taken. Where v has none
 /// there, the corner keeps the wedge it has: a little stretch instead of a triangle that spans the atlas.

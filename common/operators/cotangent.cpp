@@ -5,7 +5,7 @@
 
 // The spoke to neighbour j is opposite neighbour j+1 in triangle j (cot2[j]) and opposite neighbour j-1 in triangle j-1
 // (cot1[j-1]). The two cotangents that a triangle adds to a row sum to (opposite side)^2 / (2 area) > 0, so the sum of
-// a plain row is positive whenever one triangle is solid.
+// a plain row is positive whenever one triangle is valid.
 
 namespace multires::kernels {
 
@@ -24,7 +24,7 @@ bool normalise(double* weight, Index size) {
 
 /// The star as a ring of intrinsic triangles, from which spokes can be flipped away.
 ///
-/// Triangle j lies between the spokes j and next[j] and is kept as the dot product d = r_j r_k cos(angle) and cross
+/// Triangle j lies between the spokes j and next[j] and is stored as the dot product d = r_j r_k cos(angle) and cross
 /// product c = r_j r_k sin(angle) of its spokes, so flips need neither roots nor trigonometry.
 class SpokeFlips {
 public:
@@ -56,7 +56,7 @@ public:
         std::fill_n(weight, star_.size, 0.0);
         Index j = first_;
         for (Index count = 0; count < alive_; ++count, j = star_.next[j]) {
-            if (star_.solid[j] == 0) continue;
+            if (star_.valid[j] == 0) continue;
             const Index k = star_.next[j];
             const double inverse = 1 / star_.area[j];
             weight[j] += (star_.square[k] - star_.dot[j]) * inverse;
@@ -77,7 +77,7 @@ private:
         if (!(c > 0)) return false;          // a spoke of no length has no angle, nothing is unfolded across it
         star_.area[i] = c / star_.square[j];
         star_.dot[i] = (d1 * d2 - c1 * c2) / star_.square[j];
-        star_.solid[i] = std::max(star_.solid[i], star_.solid[j]);
+        star_.valid[i] = std::max(star_.valid[i], star_.valid[j]);
         star_.next[i] = k;
         star_.previous[k] = i;
         --alive_;
@@ -86,8 +86,8 @@ private:
 
     /// True if a degenerate triangle shows that neighbour j lies behind i or k, or on one of them (then one is hidden).
     bool is_hidden(Index i, Index j, Index k) const {
-        return (star_.solid[i] == 0 && star_.dot[i] > 0 && star_.square[j] > star_.square[i]) ||
-               (star_.solid[j] == 0 && star_.dot[j] > 0 && star_.square[j] >= star_.square[k]);
+        return (star_.valid[i] == 0 && star_.dot[i] > 0 && star_.square[j] > star_.square[i]) ||
+               (star_.valid[j] == 0 && star_.dot[j] > 0 && star_.square[j] >= star_.square[k]);
     }
 
     StarGeometry& star_;
@@ -98,7 +98,7 @@ private:
 bool on_link_edge(const StarGeometry& star, double* weight) {
     for (Index j = 0; j < star.size; ++j) {
         const double d = star.dot[j], least = std::min(star.square[j], star.square[j + 1]);
-        if (star.solid[j] != 0 || d >= 0 || least <= 1e-12 * std::max(star.square[j], star.square[j + 1])) continue;
+        if (star.valid[j] != 0 || d >= 0 || least <= 1e-12 * std::max(star.square[j], star.square[j + 1])) continue;
         const Index k = j + 1 < star.size ? j + 1 : 0;
         std::fill_n(weight, star.size, 0.0);
         weight[j] = star.square[k] - d;
@@ -136,15 +136,15 @@ bool cotangent_clamped(const StarGeometry& star, double largest, double* weight)
 // set to 0.
 bool cotangent_delaunay(StarGeometry& star, double* weight) {
     const Index n = star.size;
-    double least = 0, all_solid = 1;
+    double least = 0, all_valid = 1;
     weight[0] = star.cot2[0] + star.cot1[n - 1];
     for (Index j = 1; j < n; ++j) weight[j] = star.cot2[j] + star.cot1[j - 1];
     for (Index j = 0; j < n; ++j) {
         least = std::min(least, weight[j]);
-        all_solid *= star.solid[j];
+        all_valid *= star.valid[j];
     }
-    if (least < 0 || all_solid == 0) {
-        if (all_solid == 0 && on_link_edge(star, weight)) return normalise(weight, n);
+    if (least < 0 || all_valid == 0) {
+        if (all_valid == 0 && on_link_edge(star, weight)) return normalise(weight, n);
         SpokeFlips flips(star);
         flips.run();
         flips.weights(weight);

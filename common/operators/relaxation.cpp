@@ -51,15 +51,15 @@ bool is_second_difference(Operator op) {
 template <class Row>
 std::vector<Index> for_rows(Index rows, const RelaxationOptions& options, const Row& row) {
     constexpr Index chunk = 512;
-    std::vector<std::vector<Index>> kept((rows + chunk - 1) / chunk);
+    std::vector<std::vector<Index>> fixed((rows + chunk - 1) / chunk);
     parallel_chunks(rows, chunk, [&](Index begin, Index end) {
         RowRelaxation relaxation(options);
         for (Index r = begin; r < end; ++r) {
-            if (!row(relaxation, r)) kept[begin / chunk].push_back(r);
+            if (!row(relaxation, r)) fixed[begin / chunk].push_back(r);
         }
     });
     std::vector<Index> all;
-    for (const std::vector<Index>& part : kept) all.insert(all.end(), part.begin(), part.end());
+    for (const std::vector<Index>& part : fixed) all.insert(all.end(), part.begin(), part.end());
     return all;
 }
 
@@ -149,7 +149,7 @@ RingWeights ring_weights(const Rings& rings, const Positions& positions, const R
     RingWeights result;
     result.weight.resize(rings.neighbor.size());
     if (flaps) result.flap_weight.resize(rings.neighbor.size());
-    result.kept = for_rows(rings.rows(), options, [&](RowRelaxation& relaxation, Index r) {
+    result.fixed = for_rows(rings.rows(), options, [&](RowRelaxation& relaxation, Index r) {
         const Index at = rings.offset[r];
         return relaxation.row(star(rings, r), positions, result.weight.data() + at,
                               flaps ? result.flap_weight.data() + at : nullptr);
@@ -175,7 +175,7 @@ void relax(const Rings& rings, const RingWeights& weights, const Positions& f, P
             row_sums(rows, begin, end, from, 3, sums[0].data());
             for (Index r = begin; r < end; ++r) out[rings.vertices[r]] = sums[r - begin];
         });
-    for (const Index r : weights.kept) out[rings.vertex(r)] = f[rings.vertex(r)];
+    for (const Index r : weights.fixed) out[rings.vertex(r)] = f[rings.vertex(r)];
 }
 
 Positions relaxed(const Rings& rings, const RingWeights& weights, const Positions& f) {

@@ -16,20 +16,20 @@
 /// rotation, translation, reflection or scaling of the mesh.
 ///
 /// Rules that hold for all operators
-/// - Every row sums to 1 up to rounding, or is identically zero and listed in `kept`: that vertex keeps its value,
-///   R f_v = f_v. Kept are vertices without a ring (irregular, isolated) and corners (below).
+/// - Every row sums to 1 up to rounding, or is identically zero and listed in `fixed`: that vertex keeps its value,
+///   R f_v = f_v. Fixed are vertices without a ring (irregular, isolated) and corners (below).
 /// - Boundary: a vertex with an open ring is relaxed along the boundary curve only, by linear interpolation of its
-///   two boundary neighbours with weights inverse to the edge lengths. It is kept if a feature edge meets the
+///   two boundary neighbours with weights inverse to the edge lengths. It is fixed if a feature edge meets the
 ///   boundary there.
 /// - Feature edges: the second-order differences across them are left out of the sum (Guskov 1999, section 2.3). For
 ///   the other operators a vertex with exactly two feature spokes is relaxed along the crease as if it were a
-///   boundary; with one, or more than two, it is a corner and kept. A link edge that is a feature is given by a flap
+///   boundary; with one, or more than two, it is a corner and fixed. A link edge that is a feature is given by a flap
 ///   that is none (see Rings::flap).
 /// - Degenerate triangles, those with 2 area <= `degenerate` x (sum of squared edge lengths), are left out.
 /// - Rows that would magnify rounding, sum_k |weight_k| > `largest_norm`, and closed rings of which nothing is left
 ///   get the weights of cotangent_delaunay instead, or, if all triangles are degenerate, weights inverse to the edge
 ///   lengths (neighbours that coincide with the vertex, if there are any, share the weight). If the vertex has feature
-///   spokes it is kept.
+///   spokes it is fixed.
 namespace multires {
 
 /// The weight of neighbour j of vertex i, before each row is divided by its sum.
@@ -73,9 +73,9 @@ constexpr bool uses_flaps(Operator op) { return op == Operator::second_differenc
 
 /// Weights on the entries of some Rings and, for operators that use them, on their flaps.
 struct RingWeights {
-    Array<double> weight;       ///< #entries, aligned with Rings::neighbor; zeros in the rows kept
+    Array<double> weight;       ///< #entries, aligned with Rings::neighbor; zeros in the fixed rows
     Array<double> flap_weight;  ///< #entries, aligned with Rings::flap, or empty; 0 where there is no flap
-    std::vector<Index> kept;    ///< ascending: the rows whose vertex keeps its value
+    std::vector<Index> fixed;   ///< ascending: the rows whose vertex keeps its value
 };
 
 /// The weights of an operator.

@@ -34,7 +34,7 @@ Divisor add_spokes(StarGeometry& star, const std::uint8_t* feature, double* weig
     double *divisor = star.scratch[3], *squares = star.scratch[4];
     const auto spoke = [&](Index i, Index j) {
         const double own = -(star.cot2[i] + star.cot1[j]), other = star.cot0[i] + star.cot0[j];
-        const double inverse = inverse_if(star.solid[i] * star.solid[j], star.square[j]), scale = own * inverse;
+        const double inverse = inverse_if(star.valid[i] * star.valid[j], star.square[j]), scale = own * inverse;
         to_self[j] = scale * other;
         to_previous[j] = scale * (star.cot0[i] + star.cot2[i]);
         to_next[j] = scale * (star.cot0[j] + star.cot1[j]);
@@ -71,7 +71,7 @@ Divisor add_links(StarGeometry& star, const Flaps& flaps, double* weight) {
         const double d = ex * gx + ey * gy + ez * gz;
         const double cx = ey * gz - ez * gy, cy = ez * gx - ex * gz, cz = ex * gy - ey * gx;
         const double a = std::sqrt(cx * cx + cy * cy + cz * cz);
-        const double counts = a > flaps.degenerate * 2 * (e2 + g2 - d) ? star.solid[j] : 0;
+        const double counts = a > flaps.degenerate * 2 * (e2 + g2 - d) ? star.valid[j] : 0;
         const double inverse = inverse_if(counts, a), cot_j = d * inverse, cot_k = (e2 - d) * inverse;
         const double own = star.cot1[j] + star.cot2[j], scale = own * inverse_if(counts, e2);
         flaps.weight[j] = -scale * (cot_j + cot_k);

@@ -10,7 +10,7 @@ void StarGeometry::reserve(Index n) {
     size = n;
     if (n + 1 <= capacity_) return;
     capacity_ = std::max<Index>({n + 1, 2 * capacity_, 64});
-    double** const arrays[] = {&x, &y, &z, &square, &dot, &area, &solid, &cot0, &cot1, &cot2};
+    double** const arrays[] = {&x, &y, &z, &square, &dot, &area, &valid, &cot0, &cot1, &cot2};
     memory_.resize((std::size(arrays) + scratch.size()) * static_cast<std::size_t>(capacity_));
     double* at = memory_.data();
     for (double** array : arrays) {
@@ -45,12 +45,12 @@ void StarGeometry::load(const Star& star, const Positions& positions, double deg
         const Vec3 t = j + 1 < size ? spoke(j + 1) : first;
         const double tt = j + 1 < size ? t.squaredNorm() : first_square;
         const double st = s.dot(t), cross = s.cross(t).norm();
-        const bool is_solid = cross > degenerate * 2 * (ss + tt - st);  // all three sides
-        const double inverse = is_solid ? 1 / cross : 0;
+        const bool is_valid = cross > degenerate * 2 * (ss + tt - st);  // all three sides
+        const double inverse = is_valid ? 1 / cross : 0;
         keep(j + 1, t, tt);
         dot[j] = st;
         area[j] = cross;
-        solid[j] = is_solid ? 1 : 0;
+        valid[j] = is_valid ? 1 : 0;
         cot0[j] = st * inverse;
         cot1[j] = (ss - st) * inverse;
         cot2[j] = (tt - st) * inverse;

@@ -40,7 +40,7 @@ public:
     StarGeometry& operator=(StarGeometry&&) = default;
 
     /// Reads a star with a closed ring. Triangles with 2 area <= degenerate x (sum of squared edge lengths) get
-    /// cotangents of 0 and solid[j] = 0.
+    /// cotangents of 0 and valid[j] = 0.
     void load(const Star& star, const Positions& positions, double degenerate);
 
     Index size = 0;
@@ -52,7 +52,7 @@ public:
     // #size:
     double* dot = nullptr;    ///< spoke j times spoke j+1
     double* area = nullptr;   ///< twice the area of triangle j
-    double* solid = nullptr;  ///< 1, or 0 if triangle j is degenerate
+    double* valid = nullptr;  ///< 1, or 0 if triangle j is degenerate
     double* cot0 = nullptr;   ///< cotangents of triangle j at the vertex,
     double* cot1 = nullptr;   ///< at neighbour j,
     double* cot2 = nullptr;   ///< at neighbour j+1

@@ -50,7 +50,7 @@ inline PyramidOptions fine_levels() {
     return options;
 }
 
-/// What people and programs are told of one option.
+/// What dialogs, scripts and checks need of one option.
 struct PyramidOption {
     std::string name;                       ///< snake_case, unique
     std::string label = "";                 ///< for people; empty: not for them
@@ -160,7 +160,7 @@ void visit_options(PyramidOptions& o, const Visit& visit) {
     visit(Option{"mean_edges"}, mean_edges);
 }
 
-/// What is told of one option.
+/// The description of one option.
 /// @throws std::invalid_argument if there is none of that name
 PyramidOption pyramid_option(const std::string& name);
 

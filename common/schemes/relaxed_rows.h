@@ -28,12 +28,12 @@ public:
     }
 
     /// Rows whose vertex keeps its value, ascending.
-    const std::vector<Index>& kept() const { return weights_.kept; }
+    const std::vector<Index>& fixed() const { return weights_.fixed; }
 
     std::size_t bytes() const {
         return (weights_.weight.capacity() + weights_.flap_weight.capacity()) * sizeof(double) +
                (ring_single_.capacity() + flap_single_.capacity()) * sizeof(float) +
-               weights_.kept.capacity() * sizeof(Index);
+               weights_.fixed.capacity() * sizeof(Index);
     }
 
 private:
@@ -71,12 +71,12 @@ inline void copy_row(const double* from, int width, double* to) {
 template <class Keep, class Take>
 void for_relaxed_rows(const Stencil& s, Index begin, Index end, const Field& f, const Keep& keep, const Take& take) {
     const RowWeights rows = s.rows();
-    const std::vector<Index>& kept = s.kept();
+    const std::vector<Index>& fixed = s.fixed();
     parallel_chunks(end - begin, 256, [&](Index from, Index to) {
         Field relaxed = Field::unset(to - from, f.width);
         from += begin, to += begin;
         row_sums(rows, from, to, f.values.data(), f.width, relaxed.row(0));
-        for (auto k = std::lower_bound(kept.begin(), kept.end(), from); k != kept.end() && *k < to; ++k)
+        for (auto k = std::lower_bound(fixed.begin(), fixed.end(), from); k != fixed.end() && *k < to; ++k)
             std::copy_n(f.row(keep(*k)), f.width, relaxed.row(*k - from));
         for (Index r = from; r < to; ++r) take(r, relaxed.row(r - from));
     });

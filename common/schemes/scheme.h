@@ -59,7 +59,7 @@ struct Capabilities {
     bool even_rings = true;           ///< reads Level::even: the hierarchy must hold it
 };
 
-/// What all schemes are told; each takes what it has a use for.
+/// Options of all schemes; each uses those that apply to it.
 struct SchemeOptions {
     int row = 1;                                 ///< of schemes() in schemes/table.h: which one
     Operator op = Operator::cotangent_delaunay;  ///< predicts vertices from their rings

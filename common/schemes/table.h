@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-/// The table of schemes: what the choice `scheme` of all filters holds. CONTRIBUTING.md tells how to add one.
+/// The table of schemes: what the choice `scheme` of all filters holds. CONTRIBUTING.md says how to add one.
 namespace multires {
 
 struct SchemeRow {

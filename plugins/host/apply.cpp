@@ -157,7 +157,7 @@ RichParameterList parameters(const Filter& filter, const MeshDocument& document)
     try {
         const VcgLayer flat = read_layer(filter, *model);
         return declare_parameters(filter, &flat.layer, document);
-    } catch (const std::exception&) {  // told when the filter runs
+    } catch (const std::exception&) {  // reported when the filter runs
         return declare_parameters(filter, nullptr, document);
     }
 }

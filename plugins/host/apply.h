@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-/// What both filter APIs have in common: the host's view of a table row, and the story of one call.
+/// What both filter APIs have in common: the host's view of a table row, and the steps of one call.
 namespace multires::host {
 
 /// The row of the action, found by its text (hosts may put an '&' in it).

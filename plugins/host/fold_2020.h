@@ -2,7 +2,7 @@
 
 #include "host/api.h"
 
-/// MeshLab 2020.09 lists all parameters of a filter one below the other. It knows no advanced ones to fold away, as its
+/// MeshLab 2020.09 lists all parameters of a filter one below the other. It has no advanced ones to fold away, as its
 /// successors do, and a dialog with all of ours is as tall as a screen.
 namespace multires::host {
 

@@ -6,8 +6,8 @@ namespace multires::host {
 
 /// The parameters of `filter` as the host shows them, with defaults for `layer` (null: no mesh).
 /// Where the defaults cannot be derived from the layer (it is bad input, say), the fixed ones are given: what is wrong
-/// with the mesh is told when the filter runs, not when its dialog opens. The default of a LayerRef is the first layer
-/// of the document that is not the current one.
+/// with the mesh is reported when the filter runs, not when its dialog opens. The default of a LayerRef is the first
+/// layer of the document that is not the current one.
 RichParameterList declare_parameters(const plugin::Filter& filter, const Layer* layer, const MeshDocument& document);
 
 /// Writes what the host's list holds to the fields of the parameters. A parameter that the list lacks keeps its

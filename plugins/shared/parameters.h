@@ -19,7 +19,7 @@ struct Range {
     double most = std::numeric_limits<double>::infinity();
 };
 
-/// What a person is told about a parameter, and what a value has to keep to.
+/// Texts of a parameter for dialogs and docs, and the limits of its values.
 struct Hint {
     std::string label;
     std::string tooltip;         ///< what a value does, and in which unit
@@ -80,7 +80,7 @@ struct Parameter {
     Parameter& in(std::string group) { return hint.group = std::move(group), *this; }
     Parameter& advanced(std::string group) { return hint.advanced = true, in(std::move(group)); }
     Parameter& derived() { return hint.derived = true, *this; }
-    /// Derived from the mesh, and `was_given` tells whether the caller has put another value in its place.
+    /// Derived from the mesh, and `was_given` is set if the caller passes another value.
     Parameter& derived(bool& was_given) { return given = &was_given, derived(); }
 };
 

@@ -1,4 +1,5 @@
-// Loops on all threads by base/parallel.h, beside OpenMP: a pyramid's pattern, loops over levels that shrink by a quarter.
+// Loops on all threads by base/parallel.h, beside OpenMP: a pyramid's pattern, loops over levels that shrink by a
+// quarter.
 
 #include "base/array.h"
 #include "base/parallel.h"

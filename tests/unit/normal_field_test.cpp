@@ -135,7 +135,7 @@ TEST(NormalField, GivesUnitNormalsAndTicks) {
     EXPECT_LE(ticks.back(), 1);
 }
 
-TEST(NormalField, FacesWithoutAreaHaveNoSay) {
+TEST(NormalField, FacesWithoutAreaHaveNoWeight) {
     const Mesh mesh = noisy(shapes::irregular_sphere(1000), 0.15);
     Mesh more = mesh;
     for (Index v = 0; v < 900; ++v) more.faces.push_back({v, v, mesh.faces[v][0]});
@@ -154,7 +154,7 @@ TEST(FitVertices, SurfacesThatFitTheirNormalsStay) {
         EXPECT_LE(largest_distance(fitted(mesh, face_normals(mesh.faces, mesh.positions)), mesh.positions), 1e-14);
 }
 
-TEST(FitVertices, NormalsOfZeroHaveNoSay) {
+TEST(FitVertices, NormalsOfZeroHaveNoWeight) {
     const Mesh mesh = noisy(shapes::irregular_sphere(300), 0.2);
     EXPECT_EQ(fitted(mesh, Array<Vec3>(mesh.faces.size(), Vec3::Zero())), mesh.positions);
 }

@@ -49,21 +49,21 @@ inline Positions planar_star(Index n, std::uint64_t seed) {
     return p;
 }
 
-inline bool is_kept(const std::vector<Index>& kept, Index row) {
-    return std::binary_search(kept.begin(), kept.end(), row);
+inline bool is_fixed(const std::vector<Index>& fixed, Index row) {
+    return std::binary_search(fixed.begin(), fixed.end(), row);
 }
 
 /// Rows as a sparse matrix has them: every column once, the ring first, then the flaps that are not in it.
 struct Rows {
     std::vector<Index> offset{0}, column;
     std::vector<double> weight;
-    std::vector<Index> kept;
+    std::vector<Index> fixed;
 };
 
 inline Rows sparse_rows(const Rings& rings, const Positions& positions, const RelaxationOptions& options) {
     const RingWeights weights = ring_weights(rings, positions, options);
     Rows rows;
-    rows.kept = weights.kept;
+    rows.fixed = weights.fixed;
     for (Index r = 0; r < rings.rows(); ++r) {
         for (Index k = rings.offset[r]; k < rings.offset[r + 1]; ++k) {
             rows.column.push_back(rings.neighbor[k]);

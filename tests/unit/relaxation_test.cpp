@@ -10,14 +10,14 @@ namespace multires {
 
 using namespace fixtures;
 
-TEST(Relaxation, RowsSumToOneOrAreKept) {
+TEST(Relaxation, RowsSumToOneOrAreFixed) {
     for (const auto& [name, mesh] : every_class()) {
         const Rings rings = rings_with_flaps(mesh);
         for (const Operator op : all_operators) {
             const Rows rows = sparse_rows(rings, mesh.positions, with(op));
             ASSERT_EQ(rows.offset.size(), rings.kind.size() + 1);
             for (Index r = 0; r < rings.rows(); ++r) {
-                const double expected = is_kept(rows.kept, r) ? 0 : 1;
+                const double expected = is_fixed(rows.fixed, r) ? 0 : 1;
                 EXPECT_NEAR(sum_of_row(rows, r), expected, 1e-14 * largest_weight(rows, r) * (1 + rings.size(r)))
                     << name << " operator " << static_cast<int>(op) << " row " << r;
             }
@@ -25,7 +25,7 @@ TEST(Relaxation, RowsSumToOneOrAreKept) {
     }
 }
 
-TEST(Relaxation, WithoutFeaturesExactlyTheRowsWithoutRingAreKept) {
+TEST(Relaxation, WithoutFeaturesExactlyTheRowsWithoutRingAreFixed) {
     for (const auto& [name, mesh] : every_class()) {
         const Rings rings = rings_with_flaps(mesh);
         std::vector<Index> without;
@@ -33,7 +33,7 @@ TEST(Relaxation, WithoutFeaturesExactlyTheRowsWithoutRingAreKept) {
             if (rings.kind[r] == RingKind::irregular || rings.kind[r] == RingKind::isolated) without.push_back(r);
         }
         for (const Operator op : all_operators)
-            EXPECT_EQ(ring_weights(rings, mesh.positions, with(op)).kept, without) << name;
+            EXPECT_EQ(ring_weights(rings, mesh.positions, with(op)).fixed, without) << name;
     }
 }
 
@@ -92,7 +92,7 @@ TEST(Relaxation, SameUnderRotationTranslationScalingAndReflection) {
         for (const Operator op : all_operators) {
             const Rows a = sparse_rows(rings, mesh.positions, with(op)), b = sparse_rows(rings, moved, with(op));
             ASSERT_EQ(a.column, b.column);
-            EXPECT_EQ(a.kept, b.kept) << name;
+            EXPECT_EQ(a.fixed, b.fixed) << name;
             for (Index r = 0; r < rings.rows(); ++r) {
                 for (Index k = a.offset[r]; k < a.offset[r + 1]; ++k) {
                     ASSERT_NEAR(a.weight[k], b.weight[k], 1e-10 * largest_weight(a, r)) << name << " row " << r;
@@ -113,9 +113,9 @@ TEST(Relaxation, SameForOneAndTwoThreads) {
         const Rows two = sparse_rows(rings, mesh.positions, with(op));
         EXPECT_EQ(one.column, two.column);
         EXPECT_EQ(one.weight, two.weight);
-        EXPECT_EQ(one.kept, two.kept);
+        EXPECT_EQ(one.fixed, two.fixed);
         const bool has_corners = op != Operator::second_difference && op != Operator::second_difference_flaps;
-        EXPECT_EQ(one.kept.empty(), !has_corners);
+        EXPECT_EQ(one.fixed.empty(), !has_corners);
     }
     set_thread_count(0);
 }
@@ -138,7 +138,7 @@ TEST(Relaxation, OpenRingsInterpolateAlongTheBoundary) {
     }
 }
 
-TEST(Relaxation, RelaxedKeepsTheValuesOfKeptRows) {
+TEST(Relaxation, RelaxedKeepsTheValuesOfFixedRows) {
     const Mesh mesh = shapes::unreferenced_vertices();
     const Rings rings = rings_with_flaps(mesh);
     const Positions result = relaxed(rings, ring_weights(rings, mesh.positions), mesh.positions);
@@ -157,24 +157,24 @@ TEST(Relaxation, CreasesAndCorners) {
         for (const Array<std::uint8_t>& corner : {Array<std::uint8_t>{1, 0, 0, 0}, {1, 1, 1, 0}}) {
             star.rings.feature = corner;
             const RingWeights kept = ring_weights(star.rings, star.positions, with(op));
-            EXPECT_EQ(kept.kept, std::vector<Index>{0});
+            EXPECT_EQ(kept.fixed, std::vector<Index>{0});
             EXPECT_EQ(kept.weight, Array<double>(4, 0));
         }
         star.rings.feature = {0, 0, 0, 0};
-        EXPECT_TRUE(ring_weights(star.rings, star.positions, with(op)).kept.empty());
+        EXPECT_TRUE(ring_weights(star.rings, star.positions, with(op)).fixed.empty());
     }
     star.rings.feature = {1, 1, 1, 1};  // nothing is left of the sum
-    EXPECT_EQ(ring_weights(star.rings, star.positions, with(Operator::second_difference)).kept, std::vector<Index>{0});
+    EXPECT_EQ(ring_weights(star.rings, star.positions, with(Operator::second_difference)).fixed, std::vector<Index>{0});
 }
 
-TEST(Relaxation, CreaseMeetingTheBoundaryIsKept) {
+TEST(Relaxation, CreaseMeetingTheBoundaryIsFixed) {
     ClosedStar star({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}});
     star.rings.kind = {RingKind::open};
     for (const Operator op : {Operator::cotangent, Operator::second_difference}) {
         star.rings.feature = {1, 0, 1};  // along the boundary
         EXPECT_EQ(star.weights(op), (Array<double>{0.5, 0, 0.5}));
         star.rings.feature = {0, 1, 0};
-        EXPECT_EQ(ring_weights(star.rings, star.positions, with(op)).kept, std::vector<Index>{0});
+        EXPECT_EQ(ring_weights(star.rings, star.positions, with(op)).fixed, std::vector<Index>{0});
     }
 }
 

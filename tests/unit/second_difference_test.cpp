@@ -132,7 +132,7 @@ TEST(SecondDifference, OneEdgeGivesTheCoefficientsOfThePaper) {
             EXPECT_NEAR(c[l1] + c[l2] + c[j] + c[k], 0, 1e-12 * length / std::abs(a1));
 
             const Rows rows = sparse_rows(rings, mesh.positions, options);
-            ASSERT_FALSE(is_kept(rows.kept, r));
+            ASSERT_FALSE(is_fixed(rows.fixed, r));
             for (Index e = rows.offset[r]; e < rows.offset[r + 1]; ++e) {
                 EXPECT_NEAR(rows.weight[e], -c[rows.column[e]] / c[r], 1e-11 * largest_weight(rows, r));
             }

@@ -100,7 +100,7 @@ TEST(Tables, NamesAreUnique) {
     }
 }
 
-TEST_P(TableRow, NameTellsTheGroup) {
+TEST_P(TableRow, NameBeginsWithTheGroup) {
     EXPECT_TRUE(std::regex_match(filter().name, std::regex("Multiresolution: [A-Z0-9].*"))) << filter().name;
     EXPECT_EQ(filter().name.find('&'), std::string::npos) << "hosts strip it to find the action";
 }

@@ -55,7 +55,7 @@ Relaxation make_relaxation(const Layer& layer, const AttributeRelaxationOptions&
         const Vec3 in = p[v] - p[a], out = p[b] - p[v];
         if (in.dot(out) < least_cosine * in.norm() * out.norm()) r.step[v] = 0;
     });
-    for (const Index v : r.weights.kept) r.step[v] = 0;
+    for (const Index v : r.weights.fixed) r.step[v] = 0;
     return r;
 }
 

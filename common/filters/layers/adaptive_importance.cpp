@@ -75,7 +75,7 @@ void for_each_prediction(const Hierarchy& h, Operator op, const Visit& visit) {
     for (const Level& level : h.levels) {
         const RingWeights weights = ring_weights(level.odd, h.positions, options);
         std::vector<std::uint8_t> kept(level.odd.rows(), 0);
-        for (const Index r : weights.kept) kept[r] = 1;
+        for (const Index r : weights.fixed) kept[r] = 1;
         parallel_for(level.odd.rows(), [&](Index r) {
             const Index place = level.odd.vertex(r);
             visit(place, Prediction{level.odd, weights, r, h.parent[place], kept[r] != 0});

@@ -51,7 +51,7 @@ Result filter_calibrated(const Layer& layer, const Options& options, Session& se
     return result;
 }
 
-/// The story of every band filter: start, pyramid, gains, synthesis, region, report.
+/// The steps shared by all band filters: start, pyramid, gains, synthesis, region, report.
 template <class Options, class Gains>
 Result filter_bands(const Layer& layer, const Options& options, Session& session, const Gains& gains_of) {
     Result result;
