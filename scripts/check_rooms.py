@@ -26,7 +26,7 @@ PLUGINS = {
     "host": ["shared", *COMMON],
     "filter": ["shared", *COMMON],  # plugins/filter_*: one table each, which know neither each other nor the host
 }
-KINDS = ["shape", "attributes", "layers", "editing"]  # of filters: rooms of their own below common/filters/
+KINDS = ["shape", "attributes", "layers", "editing", "analysis"]  # of filters: rooms of their own below common/filters/
 VCGLIB = re.compile(r"#include <(vcg|wrap)/")
 QT_OR_MESHLAB = re.compile(r"#include <(Q\w+|common/.*)>")
 INCLUDE = re.compile(r'#include "([^"/]+)/')

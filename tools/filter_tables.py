@@ -11,6 +11,7 @@ FUNCTIONS = {
     "generate_multires_level": "level_as_layer",
     "compute_scalar_multires_detail_per_vertex": "detail_to_quality",
     "compute_scalar_multires_difference_per_vertex": "difference_to_layer",
+    "compute_multires_roughness": "roughness",
     "apply_coord_multires_low_pass": "low_pass",
     "apply_coord_multires_stop_band": "stop_band",
     "apply_coord_multires_enhance": "enhance",

@@ -8,6 +8,7 @@ comes with pymeshlab; noise and paint are added here.
 
 import argparse
 import pathlib
+import sys
 
 import numpy as np
 import pymeshlab
@@ -125,6 +126,7 @@ PAIRS = {
         quality,
         "1 to 6 % of the box, signed",
     ),
+    "compute_multires_roughness": None,  # heights()
     "compute_scalar_multires_difference_per_vertex": (
         warped,
         shaded,
@@ -246,6 +248,30 @@ def top(v, f):
     return panels
 
 
+def heights(v, f, path):
+    """How common each height of the bunny's fur is, and the bearing curve, by the Python package's plot."""
+    import types
+
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+    from PIL import Image
+
+    package = types.ModuleType("pymeshlab_multires")  # without what importing it does: the plugins are loaded already
+    package.__path__ = [str(ROOT / "python/src/pymeshlab_multires")]
+    sys.modules["pymeshlab_multires"] = package
+    from pymeshlab_multires._filters import roughness
+    from pymeshlab_multires._plot import plot_roughness
+
+    figure, axes = plt.subplots(figsize=(7.2, 3.6), dpi=100, layout="constrained")
+    plot_roughness(roughness(document(v, f)), axes, color="#29696f")
+    figure.savefig(path.with_suffix(".png"))
+    with Image.open(path.with_suffix(".png")) as picture:
+        picture.convert("RGB").save(path, "WEBP", quality=82, method=6)
+    path.with_suffix(".png").unlink()
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--only", nargs="*", help="names of filters, or top")
@@ -255,6 +281,9 @@ def main():
     v, f = read(BUNNY)
     arguments.output.mkdir(parents=True, exist_ok=True)
     for name in arguments.only or ["top", *PAIRS]:
+        if name == "compute_multires_roughness":
+            heights(v, f, arguments.output / "roughness.webp")
+            continue
         panels = top(v, f) if name == "top" else levels(v, f) if PAIRS[name] is None else pair(name, v, f)
         camera = rendering.three_quarter_camera(v, f)
         if any(panel.edges for panel in panels):

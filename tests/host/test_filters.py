@@ -27,7 +27,8 @@ UNSHARP = "apply_coord_multires_unsharp"
 ADAPTIVE = "generate_multires_adaptive_reconstruction"
 NEW_LAYER = [LEVEL, ADAPTIVE]
 MOVING = [name for name in FILTER_IDS if name.startswith("apply_coord")]
-WITH_PYRAMID = [name for name in FILTER_IDS if name != UNSHARP]
+ROUGHNESS = "compute_multires_roughness"
+WITH_PYRAMID = [name for name in FILTER_IDS if name not in (UNSHARP, ROUGHNESS)]
 
 POSITIONS = {"vertices", "normals", "face normals", "box"}
 ATTRIBUTES = {"vertex_color_matrix", "vertex_scalar_array", "vertex_tex_coord_matrix", "wedge_tex_coord_matrix"}

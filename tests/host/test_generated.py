@@ -27,6 +27,7 @@ MORE = {
     "apply_coord_multires_denoise": [{"method": "normal field"}, {"method": "soft threshold"},
                                      {"method": "hard threshold", "keep_volume": True}],
     "compute_scalar_multires_difference_per_vertex": [{"wavelength": 0.2}],
+    "compute_multires_roughness": [{"form": "sphere", "l_filter": 0}],
     "generate_multires_texcoord": [{"projection": "planar"}, {"projection": "existing"}],
     **{f"apply_coord_multires_{name}": [{"method": "spline", "measure": True}, {"method": "pyramid"}]
        for name in ("low_pass", "stop_band", "enhance")},

@@ -245,6 +245,21 @@ def test_the_plot_shows_the_spectrum(multires, meshes):
     assert axes.get_xscale() == axes.get_yscale() == "log" and "wavelength" in axes.get_xlabel()
 
 
+def test_the_plot_shows_heights_and_the_bearing_curve(multires, meshes):
+    import matplotlib
+
+    matplotlib.use("Agg")
+    import matplotlib.pyplot as plt
+
+    report = multires.roughness(document(meshes), form="plane", l_filter=0)
+    axes = multires.plot_roughness(report, plt.figure().add_subplot(), label="scan")
+    line = axes.get_lines()[0]
+    np.testing.assert_array_equal(line.get_ydata(), report.heights)
+    assert line.get_xdata()[0] == 100 and abs(line.get_xdata()[-1]) < 1e-9 and (np.diff(line.get_xdata()) <= 0).all()
+    below = (report.heights[:-1] + report.heights[1:]) / 2 < 0
+    assert 0.2 < report.shares[below].sum() < 0.8 and len(axes.patches) == len(report.shares)
+
+
 def mypy(*arguments, **environment):
     return subprocess.run([sys.executable, "-m", "mypy", "--strict", "--no-incremental", *arguments], text=True,
                           stdout=subprocess.PIPE, cwd=ROOT / "python", env={**os.environ, **environment})  # fmt: skip

@@ -16,8 +16,8 @@ from . import _call
 from ._equalize import EqualizeReport, equalize
 from ._filters import *  # noqa: F403
 from ._filters import __all__ as _filters
-from ._plot import plot_spectrum
+from ._plot import plot_roughness, plot_spectrum
 
-__all__ = [*_filters, "EqualizeReport", "equalize", "plot_spectrum"]
+__all__ = [*_filters, "EqualizeReport", "equalize", "plot_roughness", "plot_spectrum"]
 
 _call.load_plugins()

@@ -10,10 +10,10 @@ __all__ = [
     "DenoiseReport", "DetailToQualityReport", "DifferenceToLayerReport", "EnhanceReport", "EqualizerReport", "Features",
     "FilterAttributesReport", "FilterCustomAttributesReport", "GenerateTexcoordReport", "Grouping", "LIMITS",
     "LevelAsLayerReport", "LowPassReport", "Mode", "Movement", "Operator", "Order", "Pyramid", "PyramidUse",
-    "RelativeTo", "RelaxAttributesReport", "Result", "Scheme", "StopBandReport", "Storage", "UnsharpReport",
-    "adaptive_reconstruction", "build_pyramid", "denoise", "denoise_attributes", "detail_to_quality",
+    "RelativeTo", "RelaxAttributesReport", "Result", "RoughnessReport", "Scheme", "StopBandReport", "Storage",
+    "UnsharpReport", "adaptive_reconstruction", "build_pyramid", "denoise", "denoise_attributes", "detail_to_quality",
     "difference_to_layer", "enhance", "equalizer", "filter_attributes", "filter_custom_attributes", "generate_texcoord",
-    "level_as_layer", "low_pass", "relax_attributes", "stop_band", "unsharp",
+    "level_as_layer", "low_pass", "relax_attributes", "roughness", "stop_band", "unsharp",
 ]
 
 Scheme: TypeAlias = Literal["Roy", "Guskov", "Lazy"]
@@ -215,6 +215,40 @@ class DifferenceToLayerReport(Result):
     """With a wavelength: vertices at non-manifold edges or points."""
     unreferenced_vertices: int | None = None
     """With a wavelength: vertices without a face."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class RoughnessReport:
+    """What roughness() returns."""
+
+    solver_reused: bool | None = None
+    """The solver kept with the mesh was used; otherwise one was set up and kept (low pass)."""
+    form_radius: float | None = None
+    """Radius of the fitted sphere or cylinder (mesh units)."""
+    area: float
+    """Area of the surface that heights count from (square mesh units)."""
+    sa: float
+    """Arithmetical mean height (mesh units)."""
+    sq: float
+    """Root mean square height (mesh units)."""
+    sp: float
+    """Maximum peak height (mesh units)."""
+    sv: float
+    """Maximum pit height (mesh units)."""
+    sz: float
+    """Maximum height, Sp + Sv (mesh units)."""
+    ssk: float
+    """Skewness: below 0 with pits, above with peaks."""
+    sku: float
+    """Kurtosis: 3 for a normal distribution."""
+    sdq: float
+    """Root mean square gradient."""
+    sdr: float
+    """Developed interfacial area ratio (percent)."""
+    heights: Array
+    """Limits of the histogram, from the mean height; one more than shares (mesh units)."""
+    shares: Array
+    """Share of the area between two heights; sum 1."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -603,6 +637,39 @@ def difference_to_layer(
         Bærentzen, Aanæs, "Signed Distance Computation Using the Angle Weighted Pseudonormal", IEEE TVCG 2005.
     """
     return apply(DifferenceToLayerReport, "compute_scalar_multires_difference_per_vertex", **locals())
+
+
+def roughness(
+    ms: MeshSet, *, form: Literal["none", "plane", "sphere", "cylinder", "low pass"] = "low pass",
+    s_filter: float = 0.0, l_filter: float | None = None, order: Order = "gaussian", selected: bool | None = None,
+) -> RoughnessReport:
+    """Measures the texture of a surface by ISO 25178: Sa, Sq, Sp, Sv, Sz, Ssk, Sku, Sdq and Sdr of the waves between
+    two wavelengths, over a fitted form or, on any shape, over its low pass.
+
+    Changes nothing.
+
+    The filter compute_multires_roughness, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        form: What heights count from (F-operation). Plane, sphere, cylinder: fitted. Low pass: the shape without waves
+            shorter than the L-filter, for any shape. None: the xy plane, for height maps that are level.
+        s_filter: Nesting index, mesh units: shorter waves do not count. At least two mean edges; 0: all count. A
+            number, at least 0.
+        l_filter: Nesting index, mesh units: longer waves do not count. More than the S-filter; 0: all count (not with
+            low pass). A number, at least 0. None: derived from the mesh.
+        order: How steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 + s^2) (ISO
+            16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
+        selected: Measure the faces whose vertices are all selected, or in selected faces. None: derived from the mesh.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        ISO/TC 213, "ISO 25178-2: Surface texture: Areal, Part 2: Terms, definitions and surface texture parameters",
+            2021.
+    """
+    return apply(RoughnessReport, "compute_multires_roughness", **locals())
 
 
 @also_flat(Pyramid)

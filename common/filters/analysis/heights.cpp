@@ -1,0 +1,95 @@
+#include "filters/analysis/heights.h"
+
+#include "base/reduce.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace multires {
+namespace {
+
+/// Twice the area of a face; 0 if it is degenerate (as in measure/measure.h).
+double double_area(const Face& f, const Positions& p) {
+    const Vec3 a = p[f[1]] - p[f[0]], b = p[f[2]] - p[f[0]];
+    const double area = a.cross(b).norm(), edges = a.squaredNorm() + b.squaredNorm() + (b - a).squaredNorm();
+    return area > 1e-10 * edges ? area : 0;
+}
+
+struct Moments {
+    double weight = 0, absolute = 0, square = 0, cube = 0, fourth = 0;
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    Moments& operator+=(const Moments& o) {
+        weight += o.weight, absolute += o.absolute, square += o.square, cube += o.cube, fourth += o.fourth;
+        low = std::min(low, o.low), high = std::max(high, o.high);
+        return *this;
+    }
+};
+
+struct Slopes {
+    double area = 0, square = 0, surface = 0;
+    Slopes& operator+=(const Slopes& o) {
+        area += o.area, square += o.square, surface += o.surface;
+        return *this;
+    }
+};
+
+/// Squared gradient of a linear function on a face, by its area.
+double square_slope(const Face& f, const Positions& p, const std::vector<double>& h, double double_area) {
+    Vec3 g = Vec3::Zero();  // turned by a right angle within the face
+    for (int k = 0; k < 3; ++k) g += h[f[k]] * (p[f[(k + 2) % 3]] - p[f[(k + 1) % 3]]);
+    return g.squaredNorm() / (double_area * double_area);
+}
+
+}  // namespace
+
+std::vector<double> vertex_areas(const Mesh& mesh) {
+    std::vector<double> area(mesh.positions.size(), 0);
+    for (const Face& f : mesh.faces) {
+        const double third = double_area(f, mesh.positions) / 6;
+        for (const Index v : f) area[v] += third;
+    }
+    return area;
+}
+
+Texture texture_of(const Heights& heights, int bins) {
+    const std::vector<double> area = vertex_areas(heights.reference);
+    const std::vector<double>& h = heights.height;
+    const Mean mean = chunked_fold<Mean>(h.size(), [&](Mean& m, std::size_t i) { m += {area[i] * h[i], area[i]}; });
+    Texture t;
+    t.mean = mean.value();
+    const Moments m = chunked_fold<Moments>(h.size(), [&](Moments& sum, std::size_t i) {
+        if (!(area[i] > 0)) return;
+        const double d = h[i] - t.mean, square = d * d;
+        sum +=
+            {area[i], area[i] * std::abs(d), area[i] * square, area[i] * square * d, area[i] * square * square, d, d};
+    });
+    t.area = m.weight;
+    if (!(m.weight > 0)) return t;
+    t.sa = m.absolute / m.weight;
+    t.sq = std::sqrt(m.square / m.weight);
+    t.sp = std::max(0.0, m.high), t.sv = std::max(0.0, -m.low), t.sz = t.sp + t.sv;
+    if (t.sq > 0) {
+        t.ssk = m.cube / m.weight / (t.sq * t.sq * t.sq);
+        t.sku = m.fourth / m.weight / (t.sq * t.sq * t.sq * t.sq);
+    }
+    const Slopes s = chunked_fold<Slopes>(heights.reference.faces.size(), [&](Slopes& sum, std::size_t f) {
+        const Face& face = heights.reference.faces[f];
+        const double twice = double_area(face, heights.reference.positions);
+        if (!(twice > 0)) return;
+        const double square = square_slope(face, heights.reference.positions, h, twice);
+        sum += {twice / 2, twice / 2 * square, twice / 2 * square / (std::sqrt(1 + square) + 1)};
+    });
+    t.sdq = std::sqrt(s.square / s.area);
+    t.sdr = 100 * s.surface / s.area;
+    for (int b = 0; b <= bins; ++b) t.limits.push_back(-t.sv + t.sz * b / bins);
+    t.shares.assign(bins, 0);
+    for (std::size_t i = 0; i < h.size(); ++i) {
+        if (!(area[i] > 0)) continue;
+        const double at = t.sz > 0 ? (h[i] - t.mean + t.sv) / t.sz * bins : 0;
+        t.shares[std::clamp(static_cast<int>(at), 0, bins - 1)] += area[i] / m.weight;
+    }
+    return t;
+}
+
+}  // namespace multires
