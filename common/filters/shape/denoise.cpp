@@ -149,11 +149,8 @@ Result denoise(const Layer& layer, const DenoiseOptions& options, Session& sessi
     const std::vector<double> weights = region_weights(layer, options.region);
     const std::vector<double> confidence = confidence_of(layer, options);
 
-    double deviation = 0;
-    if (options.method != DenoiseMethod::automatic) {
-        deviation = noise_deviation(start.mesh);
-        result.report.add("noise", deviation, "mesh units");
-    }
+    if (options.method == DenoiseMethod::normal_field)
+        result.report.add("noise", noise_deviation(start.mesh), "mesh units");
     const double given =
         options.unit == ThresholdUnit::percent ? options.threshold / 100 * box_diagonal(start) : options.threshold;
     std::vector<double> movement = weights;  // how far each vertex may follow, and be shifted
@@ -171,8 +168,7 @@ Result denoise(const Layer& layer, const DenoiseOptions& options, Session& sessi
         else
             for (std::size_t i = 0; i < doubt.size(); ++i) movement[i] *= doubt[i];
     } else {
-        after = by_threshold(start, options, given, deviation, confidence, session, result.report);
-        if (options.unit == ThresholdUnit::automatic && options.strength == 0) after = start.mesh.positions;
+        after = by_threshold(start, options, given, confidence, session, result.report);
     }
     blend(layer.mesh.positions, weights, after);
     if (options.keep_volume) {

@@ -23,7 +23,7 @@ enum class DenoiseMethod {  // the order is that of scripts: append
 
 /// What a threshold is given in.
 enum class ThresholdUnit {
-    automatic,  ///< from the noise found in the mesh; `threshold` is not used
+    automatic,  ///< from the noise found in the mesh and the risk (denoise_threshold.h); `threshold` is not used
     length,     ///< mesh units
     percent,    ///< of the diagonal of the bounding box: 1 = 1 %
 };
@@ -37,7 +37,7 @@ struct DenoiseOptions {
     double strength = 1;       ///< >= 0; factor for the noise that is assumed, unless a threshold is given; 0: none
     int finest_level = 0;      ///< thresholding: levels finest_level .. coarsest_level - 1
     int coarsest_level = 5;    ///< (Roy: the five finest)
-    bool per_level = true;     ///< thresholding, automatic: a threshold for each level; otherwise that of the finest
+    bool per_level = true;     ///< thresholding, automatic: a threshold for each subband; otherwise one for all
     bool normal_only = false;  ///< thresholding: only the part of a detail along the normal
     int cycle_spins = 1;       ///< thresholding: mean over so many different hierarchies, 1..64
     bool keep_volume = false;  ///< shift along the normals until the volume is that of the input
@@ -48,8 +48,8 @@ struct DenoiseOptions {
     PyramidOptions pyramid = fine_levels();        ///< for thresholding
 };
 
-/// Standard deviation of the noise along the normals, mesh units, for all methods but the automatic: median of the
-/// second-order differences over the edges (Guskov et al. 1999, section 2.1), so that sharp edges hardly count.
+/// Standard deviation of the noise along the normals, mesh units, for the normal field and given thresholds: median of
+/// the second-order differences over the edges (Guskov et al. 1999, section 2.1), so that sharp edges hardly count.
 /// Somewhat low where noise is as strong as the triangles are large, and an upper estimate for meshes whose shape is as
 /// fine as their triangles.
 double noise_deviation(const Mesh& mesh);
