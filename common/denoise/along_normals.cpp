@@ -36,7 +36,7 @@ std::vector<double> AlongNormals::detail(const std::vector<double>& h, double co
 void AlongNormals::smooth(std::vector<double>& h, int steps) const {
     std::vector<double> next(h.size());
     for (int step = 0; step < 2 * steps; ++step) {
-        const double factor = step % 2 == 0 ? 0.5 : -0.53;
+        const double factor = step % 2 == 0 ? 0.5 : -0.5;
         parallel_for(near_.rows(), [&](Index v) {
             Channels sum = neighbours_of(h, v);
             sum[0] += constant_[v];

@@ -23,7 +23,8 @@ public:
     /// The same without the constant part, in all channels.
     std::vector<double> linear_detail(const std::vector<double>& h) const;
 
-    /// `steps` of Taubin's pairs of steps (0.5 and -0.53).
+    /// `steps` pairs of one step inwards and one outwards, like Taubin's (1995) but of the same length, 0.5: long waves
+    /// are kept and not amplified, 1 - k^2 / 4 for each pair where k is the frequency (eigenvalue of -L).
     void smooth(std::vector<double>& h, int steps) const;
 
 private:

@@ -1,6 +1,7 @@
 #include "denoise/automatic.h"
 
 #include "base/parallel.h"
+#include "base/reduce.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
 #include "normals/spikes.h"
@@ -105,21 +106,23 @@ Prepared prepared(const Faces& faces, const Positions& positions, const Incidenc
 /// Factor for the deviation when choosing. On smooth shapes a blend keeps as much of the noise as the deviation is
 /// underestimated, while a bit too much costs little elsewhere: so the estimate's own error is added where the noise is
 /// strong enough to be told from the shape.
-double caution(double deviation_in_edges, Index vertices) {
-    const double error = std::min(0.12, 0.04 + 3 / std::sqrt(static_cast<double>(vertices)));
+double allowance(double deviation_in_edges, Index vertices) {
+    const double error = std::min(0.06, 0.02 + 1.5 / std::sqrt(static_cast<double>(vertices)));
     return 1 + error * std::clamp((deviation_in_edges - 0.03) / 0.03, 0.0, 1.0);
 }
 
 /// The noise as it is assumed for the choice.
 struct Assumed {
     std::vector<double> deviation;  ///< #V: along the normals, mesh units, times `factor`
-    double factor = 1;              ///< see caution()
+    double factor = 1;              ///< see allowance()
+    double certain = 1;             ///< share of the variance that there is at least
     int normal_steps = 3;           ///< see normal_steps()
 };
 
 struct Choice {
     Eigen::VectorXd weights;
     double before = 0, after = 0;  ///< mean square error of the heights
+    double gain = 0;               ///< what it falls by at least
 };
 
 /// Weights so small that their candidates are not worth making go to the others.
@@ -145,6 +148,27 @@ Eigen::VectorXd weights_of(const Risks& r) {
     return t;
 }
 
+/// The share of a blend that gains even if there is less noise than assumed: the cross term of the risk goes with the
+/// variance of the noise.
+/// @param certain  share of the variance that there is at least
+double safe_share(const Risk& risk, const Eigen::VectorXd& t, double certain) {
+    const double moved = t.dot(risk.quadratic * t), answer = -risk.linear.dot(t);
+    return moved > 0 ? std::clamp(2 * certain * answer / moved, 0.0, 1.0) : 0;
+}
+
+/// Mean square of what a blend leaves of the probe.
+double noise_left(const std::vector<Response>& responses, const std::vector<double>& probe, const Eigen::VectorXd& t,
+                  const std::vector<std::uint8_t>& core) {
+    const auto mean = chunked_fold<Mean>(core.size(), [&](Mean& part, std::size_t i) {
+        if (!core[i]) return;
+        double left = probe[i];
+        for (std::size_t k = 0; k < responses.size(); ++k)
+            left += t[static_cast<Eigen::Index>(k)] * responses[k][2 * i + 1];
+        part.add(left * left);
+    });
+    return mean.value();
+}
+
 /// Weight of the normal field.
 double field_share(const Eigen::VectorXd& t) {
     const Eigen::Index count = field_strength.size();
@@ -155,15 +179,23 @@ Choice choose(const Faces& faces, const Positions& positions, const Incidence& a
               const Assumed& noise, const std::vector<std::uint8_t>& core, const std::function<void(double)>& tick) {
     const Prepared p = prepared(faces, positions, at, near, noise.normal_steps);
     const CandidateMaker maker(faces, positions, at, near, p.normal, p.weight, noise.deviation);
-    const Risks r = risks(near, maker.responses(tick), noise.deviation, maker.probe(), core);
+    const std::vector<Response> responses = maker.responses(tick);
+    const Risks r = risks(near, responses, noise.deviation, maker.probe(), core);
     Choice choice;
     choice.weights = weights_of(r);
+    const double certain = noise.certain / (noise.factor * noise.factor);
+    choice.weights *=
+        std::min(safe_share(r.edges, choice.weights, certain), safe_share(r.heights, choice.weights, certain));
     // What is expected goes with the deviation as it was found.
     Risk expected = r.heights;
     expected.constant /= noise.factor * noise.factor;
     expected.linear /= noise.factor * noise.factor;
     choice.before = expected.constant;
-    choice.after = std::max(0.0, expected.at(choice.weights));
+    choice.gain = std::max(0.0, -2 * certain * r.heights.linear.dot(choice.weights) -
+                                    choice.weights.dot(r.heights.quadratic * choice.weights));
+    // What the blend leaves of the noise is an error in any case.
+    choice.after = std::max(expected.at(choice.weights),
+                            noise_left(responses, maker.probe(), choice.weights, core) / (noise.factor * noise.factor));
     return choice;
 }
 
@@ -176,7 +208,7 @@ Choice choose_on_sample(const Faces& faces, const Positions& positions, const In
     const Incidence sample_at = vertex_faces(sample.faces, static_cast<Index>(sample.positions.size()));
     const Neighbours sample_near = neighbours(sample.faces, sample_at);
     return choose(sample.faces, sample.positions, sample_at, sample_near,
-                  {sample.deviation, noise.factor, noise.normal_steps}, sample.core, tick);
+                  {sample.deviation, noise.factor, noise.certain, noise.normal_steps}, sample.core, tick);
 }
 
 double mean_square(const Positions& p) {
@@ -196,7 +228,7 @@ Shares safe_shares(const WithinSurface& within, const Choice& choice) {
     Shares shares;
     if (field_share(choice.weights) > 0.9) shares.turning = 0;
     const double smoothed = mean_square(within.smoothing), turned = shares.turning * mean_square(within.turning);
-    double allowed = 0.5 * std::max(0.0, choice.before - choice.after);
+    double allowed = 0.25 * choice.gain;
     if (within.noisy) {
         allowed += 0.9 * std::max(0.0, within.before * within.before - within.after * within.after);
         if (turned > allowed) shares.turning = std::sqrt(allowed / turned);
@@ -240,17 +272,20 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     }
     tick(0.1, "Measuring the noise");
     SurfaceNoise noise = surface_noise(faces, start, at, near, stats.edge);
-    if (options.deviation) noise.along_normals = *options.deviation;
+    if (options.deviation) noise.along_normals = noise.at_least = *options.deviation;
     noise.along_normals *= options.strength;
+    noise.at_least *= options.strength;
     stats.deviation = noise.along_normals;
-    if (!(noise.along_normals > rounding * stats.edge)) return start;
+    if (!(noise.at_least > rounding * stats.edge)) return start;
 
     tick(0.2, "Looking for noise within the surface");
     const WithinSurface within = relax_within_surface(faces, start, near, noise, stats.edge);
     tick(0.25, "Choosing");
     const double in_edges = noise.along_normals / stats.edge;
     Assumed assumed;
-    assumed.factor = caution(in_edges, count);
+    assumed.factor = allowance(in_edges, count);
+    const double certain = noise.at_least / noise.along_normals;
+    assumed.certain = certain * certain;
     assumed.normal_steps = normal_steps(in_edges);
     assumed.deviation.assign(count, assumed.factor * noise.along_normals);
     const Choice choice = choose_on_sample(faces, shifted(start, within, Shares()), at, near, assumed,

@@ -13,7 +13,7 @@ namespace {
 constexpr std::array<int, 6> local_steps = {4, 6, 9, 15, 25, 40};
 constexpr int noise_steps = 12;
 /// Length of the push that measures the response of a normal field, which is not linear, in samples of the noise.
-constexpr double push_length = 0.3;
+constexpr double push_length = 0.1;
 constexpr double rounding = 1e-4;  ///< differences of normals that coordinates in single precision make
 constexpr int fit_steps = 8;       ///< more would follow the normals further and lose volume
 

@@ -2,24 +2,31 @@
 
 #include "denoise/neighbours.h"
 
+#include <optional>
+
 namespace multires {
 
 /// White noise on a surface.
 struct SurfaceNoise {
     double along_normals = 0;  ///< standard deviation of the part along the normals, mesh units
+    /// What it is at least, mesh units: details that are not taken for noise elsewhere, and details that stand out
+    /// of those around them as noise does not, tell how far shape may have been taken for noise.
+    double at_least = 0;
     /// Of the vertices' places within the surface in each of two directions, mesh units: an upper bound of the noise
     /// there, for an irregular sampling looks the same.
     double within_surface = 0;
 };
 
-/// Estimates the noise from third differences along smoothed normals. Their energies, averaged over a few rings, are
-/// divided by those of white noise of deviation 1 pushed through the same operator on the same mesh, so that neither
-/// the irregularity nor the valences matter. Noise is everywhere, texture and creases are not: so the lowest tenth of
-/// the ratios counts, less what the spread from there to the third tenth says of texture.
+/// Estimates the noise from third differences along smoothed normals, in units of what white noise of deviation 1
+/// makes of the same differences on the same mesh (energies.h), in two ways:
+/// - Noise is everywhere, texture and creases are not: the lowest tenth of the energies counts, less what the spread
+///   from there to the third tenth says of texture.
+/// - Shape has details where it bends: the part of the energies counts that does not go with the bends.
+/// If both agree it is the second, which uses all vertices, otherwise the smaller.
 ///
 /// Noise that is not the same everywhere is underestimated: its quietest part counts.
 /// @param edge  mean edge length
-/// Cost: linear, about 80 passes over the neighbours
+/// Cost: linear, about 120 passes over the neighbours
 SurfaceNoise surface_noise(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
                            double edge);
 

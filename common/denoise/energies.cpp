@@ -1,0 +1,137 @@
+#include "denoise/energies.h"
+
+#include "base/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace multires {
+namespace {
+
+constexpr int local_steps = 6;    ///< averaging that makes an energy local
+constexpr int smooth_steps = 20;  ///< more of it for what white noise leaves: a property of the mesh alone
+constexpr std::size_t bins = 10;
+
+double quantile_of(std::vector<double> values, double share) {
+    if (values.empty()) return 0;
+    const auto it = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), it, values.end());
+    return *it;
+}
+
+double mean_of(const std::vector<double>& values) {
+    return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// Squares, averaged over a few rings.
+std::vector<double> local_squares(const Neighbours& near, const std::vector<double>& detail) {
+    std::vector<double> energy(detail.size());
+    for (std::size_t i = 0; i < detail.size(); ++i) energy[i] = detail[i] * detail[i];
+    average(near, energy, 3, local_steps);
+    return energy;
+}
+
+/// Moments of the means of tenths.
+struct Moments {
+    double x = 0, y = 0;    ///< means
+    double xx = 0, xy = 0;  ///< variance and covariance
+};
+
+/// @param relative  weights that make the error of each tenth's y a share of it
+Moments moments(const std::vector<double>& x, const std::vector<double>& y, bool relative) {
+    std::vector<std::size_t> order(x.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return x[a] != x[b] ? x[a] < x[b] : a < b; });
+    Moments m;
+    double weights = 0;
+    for (std::size_t bin = 0; bin < bins; ++bin) {
+        const std::size_t begin = bin * x.size() / bins, end = (bin + 1) * x.size() / bins;
+        if (begin == end) continue;
+        double mean_x = 0, mean_y = 0;
+        for (std::size_t k = begin; k < end; ++k) {
+            mean_x += x[order[k]] / static_cast<double>(end - begin);
+            mean_y += y[order[k]] / static_cast<double>(end - begin);
+        }
+        if (!(mean_y > 0)) return {};
+        const double weight = relative ? 1 / (mean_y * mean_y) : 1;
+        weights += weight;
+        m.x += weight * mean_x;
+        m.y += weight * mean_y;
+        m.xx += weight * mean_x * mean_x;
+        m.xy += weight * mean_x * mean_y;
+    }
+    if (!(weights > 0)) return {};
+    m.x /= weights;
+    m.y /= weights;
+    m.xx = m.xx / weights - m.x * m.x;
+    m.xy = m.xy / weights - m.x * m.y;
+    return m;
+}
+
+}  // namespace
+
+double Energies::quantile(double share) const {
+    const double expected = quantile_of(noise[0], share) + quantile_of(noise[1], share);
+    return expected > 0 ? 2 * quantile_of(field, share) / expected : 0;
+}
+
+double Energies::mean() const {
+    const double expected = mean_of(noise[0]) + mean_of(noise[1]);
+    return expected > 0 ? 2 * mean_of(field) / expected : 0;
+}
+
+Energies local_energies(const Neighbours& near, const std::vector<double>& detail, const std::vector<Index>& inner) {
+    const std::vector<double> energy = local_squares(near, detail);
+    std::vector<double> expected(near.rows());
+    for (Index v = 0; v < near.rows(); ++v) expected[v] = (energy[3 * v + 1] + energy[3 * v + 2]) / 2;
+    average(near, expected, 1, smooth_steps);
+    Energies e;
+    e.field.resize(inner.size());
+    for (auto& sample : e.noise) sample.resize(inner.size());
+    for (std::size_t i = 0; i < inner.size(); ++i) {
+        const Index v = inner[i];
+        const double scale = expected[v] > 0 ? 1 / expected[v] : 0;
+        e.field[i] = scale * energy[3 * v];
+        e.noise[0][i] = scale * energy[3 * v + 1];
+        e.noise[1][i] = scale * energy[3 * v + 2];
+    }
+    return e;
+}
+
+double peakedness(const Neighbours& near, const std::vector<double>& detail, const std::vector<Index>& inner) {
+    const std::vector<double> energy = local_squares(near, detail);
+    std::array<double, 3> size{}, square{};
+    for (const Index v : inner)
+        for (int c = 0; c < 3; ++c) {
+            if (!(energy[3 * v + c] > 0)) continue;
+            const double x = detail[3 * v + c] * detail[3 * v + c] / energy[3 * v + c];
+            size[c] += std::sqrt(x);
+            square[c] += x;
+        }
+    const auto peak = [&](int c) { return size[c] > 0 ? square[c] / (size[c] * size[c]) : 0; };
+    const double expected = (peak(1) + peak(2)) / 2;
+    return expected > 0 ? peak(0) / expected : 0;
+}
+
+double without_bends(const Energies& energy, const Energies& bends) {
+    const Moments field = moments(bends.field, energy.field, true);
+    const Moments noise[2] = {moments(bends.noise[0], energy.noise[0], false),
+                              moments(bends.noise[1], energy.noise[1], false)};
+    const double mean_x = (noise[0].x + noise[1].x) / 2, mean_y = (noise[0].y + noise[1].y) / 2;
+    const double chance_xx = (noise[0].xx + noise[1].xx) / 2, chance_xy = (noise[0].xy + noise[1].xy) / 2;
+    if (!(mean_y > 0)) return 0;
+    // What chance contributes goes with the result: a few steps settle it.
+    double found = field.y / mean_y;
+    for (int step = 0; step < 50; ++step) {
+        const double xx = field.xx - found * found * chance_xx, xy = field.xy - found * found * chance_xy;
+        const double beyond_chance = field.xx > 0 ? std::clamp((xx / field.xx - 0.5) / 0.3, 0.0, 1.0) : 0;
+        const double share = xx > 0 && xy > 0 ? beyond_chance * std::min(0.9, xy / xx) : 0;
+        const double rest = mean_y - share * mean_x;
+        found = (found + (rest > 0 ? std::max(0.0, (field.y - share * field.x) / rest) : 0)) / 2;
+    }
+    return found;
+}
+
+}  // namespace multires
