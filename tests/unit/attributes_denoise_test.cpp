@@ -1,5 +1,7 @@
 #include "filters/attributes/attributes_denoise.h"
 
+#include "measure/measure.h"
+
 #include "fixtures.h"
 #include "reported.h"
 #include "scheme_fixtures.h"
@@ -76,7 +78,7 @@ AttributeDenoiseOptions of_quality() {
 }
 
 TEST(DenoiseAttributes, FindsTheNoiseWhateverTheSchemeAndOperator) {
-    for (const double deviation : {0.2, 0.5})  // where it is more than what the scene has at the finest level
+    for (const double deviation : {0.05, 0.2, 0.5})
         for (const int scheme : fixtures::every_scheme())
             for (const Operator op : {Operator::cotangent_delaunay, Operator::second_difference_flaps}) {
                 AttributeDenoiseOptions options = of_quality();
@@ -84,8 +86,7 @@ TEST(DenoiseAttributes, FindsTheNoiseWhateverTheSchemeAndOperator) {
                 options.pyramid.scheme.op = op;
                 const Result result = denoise(scene().with_noise(deviation, 0), options);
                 const double found = reported<double>(result, "quality_noise");
-                EXPECT_GT(found, deviation);  // the scene's own detail counts as noise: 4 to 14 %
-                EXPECT_LT(found, 1.15 * deviation);
+                EXPECT_NEAR(found, deviation, 0.1 * deviation);  // a quantile of 6000: three deviations
             }
 }
 
@@ -101,6 +102,52 @@ TEST(DenoiseAttributes, TakesMostOfTheNoiseAway) {
     }
 }
 
+/// Signals between 0 and 1: smooth, textured with waves of a few edges, and with steps.
+std::vector<std::pair<std::string, std::vector<double>>> signals(const Mesh& mesh) {
+    const double edge = mean_edge_length(mesh.faces, mesh.positions);
+    std::vector<double> smooth, textured, steps;
+    for (const Vec3& p : mesh.positions) {
+        const double slow = std::sin(2 * p.x()) * std::cos(3 * p.y()),
+                     fast = std::sin(p.dot(Vec3(0.6, 0.5, 0.6)) / edge);
+        smooth.push_back(0.5 + 0.5 * slow);
+        textured.push_back(0.5 + 0.25 * slow + 0.25 * fast);
+        steps.push_back(std::sin(5 * p.x()) * std::cos(4 * p.z()) > 0 ? 1 : 0);
+    }
+    return {{"smooth", smooth}, {"textured", textured}, {"steps", steps}};
+}
+
+// Texture and steps were taken for noise: a hundredth of noise became three of error.
+TEST(DenoiseAttributes, NeverHarms) {
+    for (const Mesh& mesh : {shapes::irregular_sphere(3000), shapes::scan(3000)})
+        for (const auto& [name, truth] : signals(mesh))
+            for (const double deviation : {0.0, 0.01, 0.03, 0.1, 0.3})
+                for (const bool rounded : {false, true})
+                    for (const Shrink rule : {Shrink::soft, Shrink::hard}) {
+                        SCOPED_TRACE(name + " " + std::to_string(deviation) + (rounded ? " rounded" : ""));
+                        AttributeDenoiseOptions options;
+                        options.rule = rule;
+                        (rounded ? options.what.color : options.what.quality) = true;
+                        const std::vector<double> values = noisy(truth, deviation, 7);
+                        Layer layer;
+                        layer.mesh = mesh;
+                        Attribute a{AttributeKind::quality, "", 1, values};
+                        std::vector<double> wanted = truth;
+                        if (rounded) {
+                            a = {AttributeKind::color, "", 4, {}};
+                            wanted.clear();
+                            for (std::size_t i = 0; i < values.size(); ++i)
+                                for (int c = 0; c < 4; ++c) {
+                                    a.values.push_back(std::clamp(std::round(255 * values[i]), 0.0, 255.0));
+                                    wanted.push_back(255 * truth[i]);
+                                }
+                        }
+                        layer.attributes = {a};
+                        const double before = rms_difference(a.values, wanted),
+                                     after = rms_difference(denoise(layer, options).attributes[0].values, wanted);
+                        EXPECT_LE(after, 1.01 * before + (rounded ? 0.3 : 0.001));
+                    }
+}
+
 TEST(DenoiseAttributes, DenoisesColoursAsVectorsAndLeavesAlphaAlone) {
     const Layer layer = scene().with_noise(0, 15);
     AttributeDenoiseOptions options;
@@ -110,7 +157,7 @@ TEST(DenoiseAttributes, DenoisesColoursAsVectorsAndLeavesAlphaAlone) {
         const Result result = denoise(layer, options);
         const std::vector<double>& after = result.attributes[0].values;
         const double before = rms_difference(layer.attributes[1].values, scene().color);
-        EXPECT_LT(rms_difference(after, scene().color), 0.5 * before);
+        EXPECT_LT(rms_difference(after, scene().color), (light ? 0.55 : 0.5) * before);
         for (std::size_t i = 3; i < after.size(); i += 4) EXPECT_EQ(after[i], 255);
     }
     EXPECT_NEAR(reported<double>(denoise(layer, options), "color_noise"), 15, 2);
