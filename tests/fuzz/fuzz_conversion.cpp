@@ -73,7 +73,10 @@ DerivedMesh derived_from(const Layer& layer, Bytes& in) {
     DerivedMesh d;
     const auto n = static_cast<int>(layer.mesh.positions.size()), m = static_cast<int>(layer.mesh.faces.size());
     const int vertices = in.below(16), faces = in.below(16);
-    for (int i = 0; i < vertices; ++i) d.source_vertex.push_back(n ? in.below(n + 1) - (in.byte() == 77) : 0);
+    for (int i = 0; i < vertices; ++i) {
+        const int source = n ? in.below(n + 1) : 0;
+        d.source_vertex.push_back(n && in.byte() == 77 ? source - 1 : source);
+    }
     for (int i = 0; i < faces; ++i) {
         d.source_face.push_back(m ? in.below(m + 1) : 0);
         d.faces.push_back({in.below(vertices + 1), in.below(vertices + 1), in.below(vertices + 1)});
