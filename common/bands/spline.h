@@ -45,6 +45,9 @@ public:
     Positions low_pass(const Mesh& mesh, const Cutoff& cutoff, const char* parameter, const Progress& progress) const;
 
 private:
+    /// 1 / k^2.
+    double stiffness_of(const Cutoff& cutoff, const char* parameter) const;
+
     ContentHash hash_;
     double mean_edge_ = 0, size_ = 0;
     System system_;

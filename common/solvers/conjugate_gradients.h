@@ -17,6 +17,12 @@ namespace multires {
 struct GradientsOptions {
     double tolerance = 1e-8;  ///< of |residual| / |first residual|, every channel
     int most_steps = 200;
+    /// The channels are parts of one vector: they share step lengths, so that turning them turns the solution, but for
+    /// rounding, after any number of steps. They should have one unit. False: each has its own, and converges alone.
+    bool together = false;
+    /// Also converged is a step that changes the solution by no more than this, root of the mean over rows of what
+    /// add() returned. What is left is about as much, if steps converge by half or better. 0: never.
+    double enough = 0;
 };
 
 struct GradientsResult {
@@ -35,6 +41,23 @@ struct Sums {
         for (int c = 0; c < L; ++c) of[c] += other.of[c];
         return *this;
     }
+    /// Every channel gets the sum of all.
+    void join() {
+        Scalar sum = 0;
+        for (const Scalar& s : of) sum += s;
+        of.fill(sum);
+    }
+};
+
+template <int L>
+struct Norms {
+    Sums<L, double> residual;
+    double change = 0;
+    Norms& operator+=(const Norms& other) {
+        residual += other.residual;
+        change += other.change;
+        return *this;
+    }
 };
 
 }  // namespace gradients_detail
@@ -46,7 +69,7 @@ struct Sums {
 /// Vectors are arrays of rows; a row holds L real parts and, if Z, L imaginary parts after them.
 /// @param apply         apply(p, q): q = A p, Array<double>
 /// @param precondition  precondition(r, z): z = B r with B symmetric as A is; z is an Array<Number>
-/// @param add           add(i, change): row i of the solution += L (2 L) numbers
+/// @param add           add(i, change): row i of the solution += L (2 L) numbers; returns the square of the change
 /// @param r             the first residual; the last one afterwards
 /// @param tick          tick(step, residual) once a step; may throw
 /// Memory: two vectors of doubles and one of Number, beside r. Same bits for any number of threads.
@@ -55,7 +78,7 @@ GradientsResult conjugate_gradients(Array<double>& r, const GradientsOptions& op
                                     const Precondition& precondition, const Add& add, const Tick& tick) {
     using Scalar = std::conditional_t<Z, std::complex<double>, double>;
     using Dots = gradients_detail::Sums<L, Scalar>;
-    using Norms = gradients_detail::Sums<L, double>;
+    using Norms = gradients_detail::Norms<L>;
     constexpr int stride = Z ? 2 * L : L;
     const std::size_t rows = r.size() / stride;
     const auto get = [](const auto& v, std::size_t i, int c) -> Scalar {
@@ -67,24 +90,27 @@ GradientsResult conjugate_gradients(Array<double>& r, const GradientsOptions& op
         if constexpr (!Z) return a * b;
     };
     const auto dot = [&](const auto& a, const auto& b) {
-        return chunked_reduce<Dots>(rows, [&](std::size_t begin, std::size_t end) {
+        Dots all = chunked_reduce<Dots>(rows, [&](std::size_t begin, std::size_t end) {
             Dots sum;
             for (std::size_t i = begin; i < end; ++i)
                 for (int c = 0; c < L; ++c) sum.of[c] += product(get(a, i, c), get(b, i, c));
             return sum;
         });
+        if (options.together) all.join();
+        return all;
     };
     const auto ratio = [](const Scalar& a, const Scalar& b) {
         const Scalar q = b == Scalar(0) ? Scalar(0) : a / b;
         return std::isfinite(std::abs(q)) ? q : Scalar(0);
     };
 
-    const Norms first = chunked_reduce<Norms>(rows, [&](std::size_t begin, std::size_t end) {
+    Norms first = chunked_reduce<Norms>(rows, [&](std::size_t begin, std::size_t end) {
         Norms sum;
         for (std::size_t i = begin; i < end; ++i)
-            for (int c = 0; c < L; ++c) sum.of[c] += std::norm(get(r, i, c));
+            for (int c = 0; c < L; ++c) sum.residual.of[c] += std::norm(get(r, i, c));
         return sum;
     });
+    if (options.together) first.residual.join();
     GradientsResult result;
     Array<double> p(r.size()), q(r.size());
     Array<Number> z(r.size());
@@ -92,7 +118,7 @@ GradientsResult conjugate_gradients(Array<double>& r, const GradientsOptions& op
     const auto worst = [&](const Norms& now) {
         double most = 0;
         for (int c = 0; c < L; ++c)
-            if (first.of[c] > 0) most = std::max(most, std::sqrt(now.of[c] / first.of[c]));
+            if (first.residual.of[c] > 0) most = std::max(most, std::sqrt(now.residual.of[c] / first.residual.of[c]));
         return most;
     };
     result.residual = worst(first);
@@ -115,7 +141,7 @@ GradientsResult conjugate_gradients(Array<double>& r, const GradientsOptions& op
         apply(p, q);
         const Dots pq = dot(p, q);
         for (int c = 0; c < L; ++c) factor[c] = ratio(rz.of[c], pq.of[c]);
-        const Norms now = chunked_reduce<Norms>(rows, [&](std::size_t begin, std::size_t end) {
+        Norms now = chunked_reduce<Norms>(rows, [&](std::size_t begin, std::size_t end) {
             Norms sum;
             for (std::size_t i = begin; i < end; ++i) {
                 std::array<double, stride> change;
@@ -126,15 +152,21 @@ GradientsResult conjugate_gradients(Array<double>& r, const GradientsOptions& op
                     r[i * stride + c] = std::real(left);
                     if constexpr (Z) change[L + c] = std::imag(step);
                     if constexpr (Z) r[i * stride + L + c] = std::imag(left);
-                    sum.of[c] += std::norm(left);
+                    sum.residual.of[c] += std::norm(left);
                 }
-                add(static_cast<Index>(i), change.data());
+                sum.change += add(static_cast<Index>(i), change.data());
             }
             return sum;
         });
+        if (options.together) now.residual.join();
         const double before = result.residual;
         result.residual = worst(now);
         if (!std::isfinite(result.residual) || (result.residual == before && result.steps > 0)) break;
+        if (now.change <= options.enough * options.enough * static_cast<double>(rows)) {
+            result.converged = true;
+            ++result.steps;
+            return result;
+        }
     }
     result.converged = result.residual <= options.tolerance;
     return result;

@@ -51,12 +51,17 @@ void apply(const Stiffness& c, const Array<std::uint8_t>& active, std::complex<d
             return;
         }
         const Row own = row(p, i);
-        Row sum = Row::Zero();
-        for (Index k = c.offset[i]; k < c.offset[i + 1]; ++k) sum += c.weight[k] * (own - row(p, c.column[k]));
+        Row sum = Row::Zero(), m = c.mass[i] * own;
+        if (c.mass_weight.empty()) {
+            for (Index k = c.offset[i]; k < c.offset[i + 1]; ++k) sum += c.weight[k] * (own - row(p, c.column[k]));
+        } else {
+            for (Index k = c.offset[i]; k < c.offset[i + 1]; ++k) {
+                const Row difference = own - row(p, c.column[k]);
+                sum += c.weight[k] * difference;
+                m -= c.mass_weight[k] * difference;
+            }
+        }
         sum *= s;
-        Row m = c.mass[i] * own;
-        if (!c.mass_weight.empty())
-            for (Index k = c.offset[i]; k < c.offset[i + 1]; ++k) m -= c.mass_weight[k] * (own - row(p, c.column[k]));
         if constexpr (Z) {
             sum.template head<L>() += z.real() * m.template head<L>() - z.imag() * m.template tail<L>();
             sum.template tail<L>() += z.real() * m.template tail<L>() + z.imag() * m.template head<L>();
@@ -102,6 +107,8 @@ GradientsResult correct_group(const Family& family, const Array<double>& residua
     GradientsOptions how;
     how.tolerance = options.tolerance;
     how.most_steps = options.most_steps;
+    how.together = options.together;
+    how.enough = options.enough;
     return conjugate_gradients<L, Z, float>(
         r, how,
         [&](const Array<double>& p, Array<double>& q) {
@@ -110,21 +117,25 @@ GradientsResult correct_group(const Family& family, const Array<double>& residua
         [&](const Array<double>& from, Array<float>& to) { cycle.apply(from, to); },
         [&](Index i, const double* change) {
             double* const to = x.values + static_cast<std::size_t>(i) * x.width + group.first;
+            double square = 0;
             for (int c = 0; c < group.count; ++c) {
                 double part = factor.real() * change[c];
                 if constexpr (Z) part -= factor.imag() * change[L + c];
-                to[c] += part * (group.scale[c] / family.by);
+                part *= group.scale[c] / family.by;
+                to[c] += part;
+                square += part * part;
             }
+            return square;
         },
         [&](int, double left) {
-            const double done = std::log(std::max(left, 1e-300)) / std::log(options.tolerance);
+            const double done = std::log(std::max(left, 1e-300)) / std::log(std::max(options.tolerance, 1e-6));
             progress.report(std::clamp(done, 0.0, 1.0), "Solving");
         });
 }
 
 /// The largest value of each channel at active rows, 1 for those that are 0.
 std::array<double, 4> scales(const Array<double>& values, int width, int first, int count,
-                             const Array<std::uint8_t>& active) {
+                             const Array<std::uint8_t>& active, bool together) {
     struct Most {
         std::array<double, 4> of{};
         Most& operator+=(const Most& o) {
@@ -139,6 +150,7 @@ std::array<double, 4> scales(const Array<double>& values, int width, int first, 
                 found.of[c] = std::max(found.of[c], std::abs(values[i * width + first + c]));
         return found;
     });
+    if (together) most.of.fill(*std::max_element(most.of.begin(), most.of.end()));
     for (double& m : most.of)
         if (!(m > 0)) m = 1;
     return most.of;
@@ -234,7 +246,7 @@ Solved System::correct(const Shift& shift, std::complex<double> factor, bool sin
     solved.without_faces = without_faces_;
     for (int first = 0; first < x.width;) {
         Group group{first, x.width - first == 1 ? 1 : std::min(4, x.width - first), {}};
-        group.scale = scales(residual, x.width, first, group.count, active_);
+        group.scale = scales(residual, x.width, first, group.count, active_, options.together);
         const Progress part =
             progress.part(static_cast<double>(first) / x.width, static_cast<double>(first + group.count) / x.width);
         const auto run = [&](auto lanes, auto complex) {

@@ -47,8 +47,11 @@ struct SystemOptions {
 };
 
 struct SolveOptions {
-    double tolerance = 1e-8;  ///< of |residual| / |residual of the first guess|, every channel, in (0, 1)
+    double tolerance =
+        1e-8;  ///< of |residual| / |residual of the first guess|, every channel or all together, in (0, 1)
     int most_steps = 1000;
+    bool together = false;  ///< GradientsOptions::together, of up to four channels each
+    double enough = 0;      ///< GradientsOptions::enough: root of the mean square of a step's change of x
 };
 
 /// One term of a rational filter.

@@ -12,9 +12,7 @@
 namespace multires {
 namespace {
 
-/// Steps of the Chebyshev smoother before and after the coarse correction, and the part of the spectrum it damps:
-/// [largest / damped, largest].
-constexpr int smoothing_steps = 2;
+/// The part of the spectrum that the smoother damps: [largest / damped, largest].
 constexpr double damped = 5;
 
 /// The coarsest level has a few hundred rows, unless groups find no neighbours any more.
@@ -153,7 +151,7 @@ struct VCycle<L, Z>::Work {
 
     struct Vectors {
         Array<std::complex<float>> inverse;  // of Jacobi's D; 0: the row takes no part
-        Array<float> b, x, d;                // x and b of the finest level are the caller's
+        Array<float> b, x, y;                // x and b of the finest level are the caller's
         double largest = 2;
     };
 
@@ -171,38 +169,27 @@ struct VCycle<L, Z>::Work {
             const std::size_t size = static_cast<std::size_t>(level.rows) * stride;
             if (l > 0) at[l].b.resize(size);
             if (l > 0) at[l].x.resize(size);
-            if (l + 1 < grid.size()) at[l].d.resize(size);
+            if (l + 1 < grid.size()) at[l].y.resize(size);
         }
     }
 
-    /// smoothing_steps of Chebyshev's iteration for D^-1 A. @param from_zero  x counts as 0 and is set
-    template <class B>
-    void smooth(std::size_t l, const B* b, float* x, bool from_zero) {
-        const Level& level = grid[l];
-        const double high = at[l].largest, low = high / damped;
-        const double theta = (high + low) / 2, delta = (high - low) / 2, sigma = theta / delta;
-        double rho = 1 / sigma;
-        float* const d = at[l].d.data();
-        const float* last = d;  // the last change of x
-        for (int step = 0; step < smoothing_steps; ++step) {
-            float keep = 0, take = static_cast<float>(1 / theta);
-            if (step > 0) {
-                const double next = 1 / (2 * sigma - rho);
-                keep = static_cast<float>(next * rho);
-                take = static_cast<float>(2 * next / delta);
-                rho = next;
-            }
-            const bool zero = from_zero && step == 0;
-            parallel_for(level.rows, [&](Index i) {
-                Type r = Row::get(b, i);
-                if (!zero) r -= product<L, Z>(level, z, s, i, x);
-                r = Row::times(take * at[l].inverse[i], r);
-                if (step > 0) r += keep * Row::get(last, i);
-                Row::set(zero ? x : d, i, r);
-            });
-            last = zero ? x : d;
-            if (!zero) parallel_for(level.rows, [&](Index i) { Row::set(x, i, Row::get(x, i) + Row::get(d, i)); });
+    /// Two steps of Chebyshev's iteration for D^-1 A and the part [largest / damped, largest] of its spectrum: with d =
+    /// first D^-1 (b - A x) as the first change, the second is keep d + second D^-1 (b - A (x + d)).
+    struct Chebyshev {
+        explicit Chebyshev(double largest) {
+            const double low = largest / damped, theta = (largest + low) / 2, delta = (largest - low) / 2;
+            const double sigma = theta / delta, rho = 1 / (2 * sigma - 1 / sigma);
+            first = static_cast<float>(1 / theta);
+            second = static_cast<float>(2 * rho / delta);
+            keep = static_cast<float>(rho / sigma);
         }
+        float first, second, keep;
+    };
+
+    /// D^-1 (b - A x) on one row.
+    template <class B>
+    [[gnu::always_inline]] Type correction(std::size_t l, Index i, float factor, const B* b, const float* x) const {
+        return Row::times(factor * at[l].inverse[i], Row::get(b, i) - product<L, Z>(grid[l], z, s, i, x));
     }
 
     template <class B>
@@ -216,15 +203,21 @@ struct VCycle<L, Z>::Work {
             }
             return;
         }
-        smooth(l, b, x, true);
-        float* const d = at[l].d.data();
-        parallel_for(level.rows, [&](Index i) { Row::set(d, i, Row::get(b, i) - product<L, Z>(level, z, s, i, x)); });
+        const Chebyshev step(at[l].largest);
+        float* const y = at[l].y.data();
+        // Two steps from 0; every pass writes another vector than the one it reads neighbours from.
+        parallel_for(level.rows,
+                     [&](Index i) { Row::set(y, i, Row::times(step.first * at[l].inverse[i], Row::get(b, i))); });
+        parallel_for(level.rows, [&](Index i) {
+            Row::set(x, i, (1 + step.keep) * Row::get(y, i) + correction(l, i, step.second, b, y));
+        });
+        parallel_for(level.rows, [&](Index i) { Row::set(y, i, Row::get(b, i) - product<L, Z>(level, z, s, i, x)); });
         const Level& coarse = grid[l + 1];
         Vectors& below = at[l + 1];
         parallel_for(coarse.rows, [&](Index i) {
             Type sum = Type::Zero();
             for (Index k = level.r_offset[i]; k < level.r_offset[i + 1]; ++k)
-                sum += level.r[k] * Row::get(d, level.r_column[k]);
+                sum += level.r[k] * Row::get(y, level.r_column[k]);
             Row::set(below.b.data(), i, sum);
         });
         cycle(l + 1, below.b.data(), below.x.data());
@@ -234,7 +227,11 @@ struct VCycle<L, Z>::Work {
                 sum += level.p[k] * Row::get(below.x.data(), level.p_column[k]);
             Row::set(x, i, sum);
         });
-        smooth(l, b, x, false);
+        parallel_for(level.rows, [&](Index i) { Row::set(y, i, Row::get(x, i) + correction(l, i, step.first, b, x)); });
+        parallel_for(level.rows, [&](Index i) {
+            const Type now = Row::get(y, i);
+            Row::set(x, i, now + step.keep * (now - Row::get(x, i)) + correction(l, i, step.second, b, y));
+        });
     }
 
     const std::vector<Level>& grid;

@@ -216,14 +216,8 @@ bool has(const Variant& variant, const std::string& parameter, double value) {
 }
 
 /// Of the box diagonal, or of the range of an attribute. Pyramids stored as float round the details of some five levels
-/// to 6e-8 of their lengths each. Calibrated bands are solved to 2e-7 of the first residual, by a V-cycle in single
-/// precision whose groups ties decide: at most 7e-9 of the diagonal was found.
-double tolerance_of(const Filter& filter, const Variant& variant) {
-    if (has(variant, "storage", 1)) return 3e-7;
-    const bool bands = std::any_of(filter.returns.begin(), filter.returns.end(),
-                                   [](const Returned& r) { return r.key == "solver_reused"; });
-    return bands && has(variant, "method", 1) ? 1e-8 : 1e-9;
-}
+/// to 6e-8 of their lengths each.
+double tolerance_of(const Variant& variant) { return has(variant, "storage", 1) ? 3e-7 : 1e-9; }
 
 /// Bits of the edges (0, 1), (1, 2), (2, 0) of a face whose corners 1 and 2 change places.
 std::uint8_t edges_of_reversed(std::uint8_t edges) { return (edges & 2) | (edges & 1) << 2 | (edges & 4) >> 2; }
@@ -347,7 +341,7 @@ void expect_results_move_with(const Filter& filter, const Layer& layer, const st
             if (!applies(place, filter, variant)) continue;
             SCOPED_TRACE(variant.name + ", " + place.name);
             expect_placed(place, *here, run(filter, place(layer), variant.values), diagonal(layer.mesh),
-                          tolerance_of(filter, variant));
+                          tolerance_of(variant));
         }
     }
 }

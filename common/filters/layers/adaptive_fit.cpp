@@ -122,7 +122,11 @@ public:
             [&](const Array<double>& from, Array<double>& to) {
                 for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i] / std::max(diagonal_[i / 3], 1e-300);
             },
-            [&](Index i, const double* change) { x[i / 3][i % 3] += *change; }, [](int, double) {});
+            [&](Index i, const double* change) {
+                x[i / 3][i % 3] += *change;
+                return *change * *change;
+            },
+            [](int, double) {});
         return x;
     }
 
