@@ -38,11 +38,11 @@ def round_values(least, most):
     return values
 
 
-def drawn(draw, label):
+def drawn(draw, label, size=(2.8, 1.8)):
     """The SVG of what draw(axes) draws, for HTML: without namespaces, and without ids, which a page has only once."""
     with matplotlib.rc_context(LOOK):
-        figure = Figure(figsize=(2.8, 1.8))
-        axes = figure.add_axes((0.16, 0.2, 0.81, 0.75))
+        figure = Figure(figsize=size)
+        axes = figure.add_axes((0.45 / size[0], 0.36 / size[1], 1 - 0.53 / size[0], 1 - 0.45 / size[1]))
         axes.grid(axis="y")
         draw(axes)
         axes.minorticks_off()
@@ -101,3 +101,22 @@ def shapes(outcome, before, most):
                  xlabel="shape; up: percent of triangles")  # fmt: skip
 
     return drawn(draw, f"Shape of the triangles before and after {outcome.title}")
+
+
+def transmission(curves):
+    """Share of a wave that is left, over its length in mean edges: ours with dots, the formula thin, MeshLab's dashed."""
+
+    def draw(axes):
+        dashes = iter(("--", ":", "-.", (0, (6, 2)), (0, (1, 1)), (0, (4, 1, 1, 1))))
+        for title, ours, waves, shares in curves:
+            look = ({"color": INK, "lw": 0.7} if ours is None
+                    else {"color": OURS, "lw": 1.6, "marker": "o", "ms": 3} if ours
+                    else {"color": THEIRS, "lw": 1.2, "ls": next(dashes, "-")})  # fmt: skip
+            axes.plot(waves, shares, label=title, **look)
+        waves = curves[0][2]
+        axes.set(xscale="log", xlim=(min(waves), max(waves)), ylim=(-0.1, 1.2), xlabel="wavelength, mean edges",
+                 xticks=round_values(min(waves), max(waves)))  # fmt: skip
+        axes.axhline(0.5, color=FAINT, lw=0.5)
+        axes.legend(frameon=False, fontsize=7, loc="lower right")
+
+    return drawn(draw, "Share of a wave that each filter leaves, by wavelength", (6, 3.2))

@@ -24,11 +24,13 @@ import report
 from measuring import (BUILD, BUNNY, DENOISE, EQUALIZER_GAINS, PYRAMID, SMOOTHERS, UNSHARP_MASKS, Setting, document,
                        edge_length, load_plugins, measures, read, referenced, run, same_faces, shape,
                        signed_distance, tangential, with_noise)  # fmt: skip
+from transmission import FORMULAS, harmonic, irregular_sphere
 
 # Ours: title, setting, what to say of the setting where it is not the defaults.
 OUR_SMOOTHERS = (
     ("Denoise", Setting(DENOISE), None),
     ("Low pass", Setting("apply_coord_multires_low_pass"), None),
+    ("Low pass, spline", Setting("apply_coord_multires_low_pass", {"method": "spline"}), "method spline, else defaults"),
     ("Denoise, soft threshold", Setting(DENOISE, {"method": "soft threshold"}), "method soft threshold, else defaults"),
 )
 OUR_BANDS = (
@@ -130,11 +132,14 @@ def tuned(case, title, settings, repeats):
                     least_rms=(rms, nearest.words()))  # fmt: skip
 
 
+def default_of(setting):
+    """The same filter with its defaults, but for the weights that give the variant its name."""
+    return Setting(setting.filter, {k: v for k, v in setting.parameters.items() if k == "cotangentweight"})
+
+
 def by_default(case, title, settings, repeats):
-    """One filter of MeshLab with its defaults, but for the weights that give the variant its name."""
-    first = settings[0]
-    named = {k: v for k, v in first.parameters.items() if k == "cotangentweight"}
-    setting = Setting(first.filter, named)
+    """One filter of MeshLab with its defaults."""
+    setting = default_of(settings[0])
     print(f"  MeshLab: {title}", file=sys.stderr)
     v, seconds = timed(setting, case, repeats)
     return describe(case, title, v, case.faces, False, setting.words(), seconds, setting=setting)
@@ -153,6 +158,34 @@ def matched_mask(case, moved, repeats):
     v, seconds = timed(best, case, repeats)
     return describe(case, "Unsharp mask, geometry", v, case.faces, False, best.words(), seconds, setting=best,
                     tried=len(UNSHARP_MASKS))  # fmt: skip
+
+
+def transmissions():
+    """Title, whether ours, wavelengths in mean edges and shares that are left of them: of waves so low that filters are
+    linear, on an irregular sphere. MeshLab's smoothers with their defaults, our spline filter with a cutoff of 10 edges,
+    and its formula."""
+    print("  transmission", file=sys.stderr)
+    v, f = irregular_sphere(5000)
+    edge = edge_length(v, f)
+    low_pass = {"unit": "wavelength", "cutoff": 10 * edge}
+    settings = [("Low pass, spline", True, Setting(OUR_SMOOTHERS[2][1].filter, low_pass | {"method": "spline"}))]
+    settings += [(title, False, default_of(first)) for title, (first, *_) in SMOOTHERS.items()]
+    degrees = np.array([2, 3, 4, 6, 8, 11, 15, 20, 28, 38])
+    waves = 2 * np.pi / np.sqrt(degrees * (degrees + 1)) / edge
+
+    def radius(setting, places):
+        return np.linalg.norm(run(setting, places, f)[0], axis=1)
+
+    for title, ours, setting in settings:
+        smooth, shares = radius(setting, v), []
+        for degree in degrees:
+            wave = harmonic(v, degree)
+            height = 0.02 * edge
+            rest = radius(setting, v * (1 + height * wave)[:, None]) - smooth
+            shares.append(float(rest @ wave / (wave @ wave) / height))
+        yield title, ours, waves.tolist(), shares
+    fine = np.geomspace(waves.min(), waves.max(), 100)
+    yield "Formula", None, fine.tolist(), FORMULAS["2"]((10 / fine) ** 2).tolist()
 
 
 def compare(case, repeats):
@@ -204,10 +237,11 @@ def main():
         if not len(case.faces) or not len(case.truth_faces):
             sys.exit(f"{arguments.mesh}: a mesh with faces is needed")
         results = compare(case, arguments.repeats)
+        curves = list(transmissions())
     except pymeshlab.PyMeshLabException as error:
         sys.exit(f"{arguments.mesh}: {error}")
     print("  pictures", file=sys.stderr)
-    page = report.page(case, *results, up=arguments.up, tile=arguments.tile)
+    page = report.page(case, *results, curves, up=arguments.up, tile=arguments.tile)
     arguments.output.mkdir(parents=True, exist_ok=True)
     path = arguments.output / "comparison.html"
     path.write_text(page, encoding="utf-8")

@@ -139,18 +139,18 @@ def first_screen(case, smoothers):
     return ours, min(theirs, key=lambda o: abs(math.log(max(o.figures["moved"], 1e-9) / moved)))
 
 
-def as_json(case, groups):
+def as_json(case, groups, curves):
     """All figures, for programs."""
     rows = [{"title": o.title, "whose": kind(o), "parameters": o.words, "task": task, "tried": o.tried,
              **{k: float(v) if finite(v) else None for k, v in o.figures.items()}}
             for task, outcomes in groups.items() for o in outcomes]  # fmt: skip
     data = {"mesh": case.name, "noise": case.noise, "truth_known": case.truth_known, "edge_length": case.edge,
-            "rows": rows}  # fmt: skip
+            "rows": rows, "transmission": {title: [waves, shares] for title, _, waves, shares in curves}}  # fmt: skip
     return Markup(json.dumps(data).replace("</", "<\\/"))
 
 
-def page(case, inputs, smoothers, original, bands, up=None, tile=440):
-    """The whole page. The four lists are what compare() returns."""
+def page(case, inputs, smoothers, original, bands, curves, up=None, tile=440):
+    """The whole page. The first four lists are what compare() returns, the curves those of transmissions()."""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True,
                                      undefined=jinja2.StrictUndefined)  # fmt: skip
     environment.filters |= {"number": number, "finite": finite, "degrees": degrees, "kind": kind}
@@ -165,7 +165,8 @@ def page(case, inputs, smoothers, original, bands, up=None, tile=440):
         views=Views(inputs[-1], smoothers, inputs[:-1], up, tile),  # from the truth if there is one
         band_views=Views(original[0], bands, [], up, tile),
         most_share=max(charts.share(o.shapes).max() for o in [*smoothers, inputs[0]]),
-        figures=as_json(case, {"input": inputs, "smooth": smoothers, "band": [*original, *bands]}),
+        figures=as_json(case, {"input": inputs, "smooth": smoothers, "band": [*original, *bands]}, curves),
+        curves=curves,
         style=Markup((HERE / "report.css").read_text()),
         pymeshlab_version=importlib.metadata.version("pymeshlab"),
         machine=f"{os.cpu_count()} cores, {platform.machine()}",

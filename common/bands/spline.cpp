@@ -26,6 +26,7 @@ constexpr double last_change = 2e-5;
 SystemOptions system_options(const std::vector<std::uint8_t>& held) {
     SystemOptions options;
     options.stiffness.spread_mass = true;
+    options.stiffness.delaunay = true;
     options.fixed = held;
     return options;
 }

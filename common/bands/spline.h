@@ -12,7 +12,8 @@
 /// The calibrated filter: a low pass with a transmission by formula on any mesh, for positions and for attributes.
 ///
 /// C u = q^2 M u are the waves of a surface, q their wave numbers (solvers/stiffness.h). With the
-/// masses of Stiffness::mass_weight q is right to 1 % for waves of six mean edges and more, and the low pass
+/// intrinsic Delaunay triangulation and the masses of Stiffness::mass_weight q is right to 1 % for waves of four mean
+/// edges and more, and the low pass
 /// (System::rational) multiplies each wave by transmission(order, cutoff, 2 pi / q).
 namespace multires {
 

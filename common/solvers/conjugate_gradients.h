@@ -162,7 +162,7 @@ GradientsResult conjugate_gradients(Array<double>& r, const GradientsOptions& op
         const double before = result.residual;
         result.residual = worst(now);
         if (!std::isfinite(result.residual) || (result.residual == before && result.steps > 0)) break;
-        if (now.change <= options.enough * options.enough * static_cast<double>(rows)) {
+        if (options.enough > 0 && now.change <= options.enough * options.enough * static_cast<double>(rows)) {
             result.converged = true;
             ++result.steps;
             return result;

@@ -3,6 +3,9 @@
 #include "base/array.h"
 #include "mesh/mesh.h"
 
+#include <cstdint>
+#include <vector>
+
 /// The two matrices that all linear systems on a mesh are made of.
 ///
 /// C is the cotangent stiffness: f' C f is the Dirichlet energy, the integral of |grad f|^2 over the surface for the
@@ -26,6 +29,9 @@ struct StiffnessOptions {
     double least_area = 1e-7;
     /// Masses between neighbours as well, see Stiffness::mass_weight: waves of a few edges then keep their wave number.
     bool spread_mass = false;
+    /// C and M of the intrinsic Delaunay triangulation of the surface (solvers/delaunay.h) in place of those of the
+    /// faces.
+    bool delaunay = false;
 };
 
 struct Stiffness {
@@ -39,9 +45,9 @@ struct Stiffness {
     /// phases and directions, is right to fourth order in the edge, where either mass alone is to second order: expand
     /// 1 - J0(q e) = (q e)^2 / 4 - (q e)^4 / 64 in sum cot_k / 2 (1 - J0(q e_k)) = q^2 (wave's mass). Equilateral
     /// triangles have 1/2, right isosceles ones 3/8. On irregular triangles a part of that energy lies in shorter
-    /// waves, which low passes do not see; so the share is the mean of this one and that of equilateral triangles,
-    /// which on irregular spheres and planes, Delaunay or not, brought waves of 4 edges through low passes best. A
-    /// quarter of the diagonal masses <= M.
+    /// waves, which low passes do not see, and waves of 4 edges feel higher orders; so the share is the mean of this
+    /// one and 0.62, which on irregular planes brought waves of 4 and 6 edges through low passes best. A quarter of the
+    /// diagonal masses <= M.
     Array<double> mass_weight;
 
     Index rows() const { return static_cast<Index>(mass.size()); }
@@ -50,8 +56,9 @@ struct Stiffness {
 /// @param mesh  indices in range. Faces that repeat an index, or have a corner that is not finite or an edge beyond
 /// what
 ///              can be squared safely, count for nothing.
+/// @param held  #V or empty: with `delaunay`, edges between two vertices with a 1 stay
 /// Cost: linear, parallel; O(d log d) for a vertex of d faces. Same bits for any number of threads.
-Stiffness stiffness(const Mesh& mesh, const StiffnessOptions& options = {});
+Stiffness stiffness(const Mesh& mesh, const StiffnessOptions& options = {}, const std::vector<std::uint8_t>& held = {});
 
 /// out = C f for `width` interleaved channels. Constants give exactly 0.
 /// @param f, out  #V by width, not the same

@@ -215,7 +215,7 @@ System::System(const Mesh& mesh, const SystemOptions& options, const Progress& p
     const std::size_t n = mesh.positions.size();
     require(options.fixed.empty() || options.fixed.size() == n, "There must be a mark for every vertex.");
     progress.report(0, "Setting up the solver");
-    matrices_ = multires::stiffness(mesh, options.stiffness);
+    matrices_ = multires::stiffness(mesh, options.stiffness, options.fixed);
     fixed_ = options.fixed;
     active_.resize(n);
     double mass = 0;

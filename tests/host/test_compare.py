@@ -17,7 +17,8 @@ TOOLS = BUILD.parents[1] / "tools"
 sys.path.insert(0, str(TOOLS))
 import measuring  # noqa: E402
 
-OURS = {"Denoise", "Low pass", "Denoise, soft threshold", "Enhance", "Equalizer", "Stop band", "Unsharp (single level)"}
+OURS = {"Denoise", "Low pass", "Low pass, spline", "Denoise, soft threshold", "Enhance", "Equalizer", "Stop band",
+        "Unsharp (single level)"}  # fmt: skip
 MESHLAB = {"Laplacian, umbrella", "Laplacian, cotangent", "Taubin", "HC Laplacian", "Two-step",
            "Scale-dependent Laplacian", "Unsharp mask, geometry"}  # fmt: skip
 
@@ -150,6 +151,16 @@ def test_tuned_filters_are_not_beaten_by_another_setting(mesh, page):
         ms.add_mesh(pymeshlab.Mesh(noisy, f))
         ms.apply_coord_taubin_smoothing(stepsmoothnum=steps)
         assert page.rows("smooth")["Taubin"]["angle"] <= angle(ms.current_mesh().vertex_matrix(), truth, f) + 1e-9
+
+
+def test_the_spline_filter_leaves_of_waves_what_the_formula_says(page):
+    curves = page.figures["transmission"]
+    assert set(curves) > MESHLAB - {"Unsharp mask, geometry"}
+    waves, left = map(np.array, curves["Low pass, spline"])
+    # Of random places, some waves of few edges are met too rarely.
+    assert left == pytest.approx(1 / (1 + (10 / waves) ** 4), abs=0.035)
+    assert np.interp(10, *curves["Formula"]) == pytest.approx(0.5, abs=0.01)
+    assert "What is left of a wave" in " ".join(page.words)
 
 
 def test_without_a_truth_nothing_is_called_better(mesh, tmp_path):

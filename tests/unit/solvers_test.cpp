@@ -370,6 +370,52 @@ TEST(System, LowPassFollowsMotionAndScale) {
     }
 }
 
+TEST(System, ChannelsSolvedTogetherTurnTheSolutionAfterAnyNumberOfSteps) {
+    const Mesh mesh = shapes::scan(4000);
+    const System system(mesh);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Vec3(0.3, -0.8, 0.5).normalized()).toRotationMatrix();
+    Positions turned = mesh.positions;
+    for (Vec3& p : turned) p = turn * p;
+    const double k = 2 * pi / (20 * mean_edge(mesh));
+    const auto largest = [&](bool together, int steps) {
+        SolveOptions options;
+        options.together = together;
+        options.most_steps = steps;
+        Positions here(turned.size()), there(turned.size());
+        system.low_pass(k, mesh.positions, here, options);
+        system.low_pass(k, turned, there, options);
+        double most = 0;
+        for (std::size_t i = 0; i < here.size(); ++i) most = std::max(most, (turn * here[i] - there[i]).norm());
+        return most / mean_edge(mesh);
+    };
+    for (const int steps : {1, 3, 6}) EXPECT_LT(largest(true, steps), 1e-6) << steps;
+    EXPECT_GT(largest(false, 3), 1e-4);  // each alone goes another way
+}
+
+TEST(System, EndsWithAStepThatIsSmallEnough) {
+    for (const double noise : {0.0, 0.3}) {
+        Mesh mesh = shapes::scan(4000);
+        const double edge = mean_edge(mesh);
+        const Array<double> random = random_values(mesh.positions.size() * 3, 5);
+        for (std::size_t i = 0; i < random.size(); ++i) mesh.positions[i / 3][i % 3] += noise * edge * random[i];
+        const System system(mesh);
+        for (const double edges : {4.0, 20.0, 100.0}) {
+            const double k = 2 * pi / (edges * edge);
+            SolveOptions exact, early;
+            exact.tolerance = 1e-12;
+            early.enough = 1e-4 * edge, early.together = true, early.tolerance = 1e-12;
+            Positions a(mesh.positions.size()), b(a.size());
+            const Solved all = system.low_pass(k, mesh.positions, a, exact);
+            const Solved some = system.low_pass(k, mesh.positions, b, early);
+            EXPECT_TRUE(some.converged);
+            EXPECT_LT(some.steps, all.steps * 0.8);
+            double squares = 0;
+            for (std::size_t i = 0; i < a.size(); ++i) squares += (a[i] - b[i]).squaredNorm();
+            EXPECT_LT(std::sqrt(squares / static_cast<double>(a.size())), 1e-4 * edge) << noise << ", " << edges;
+        }
+    }
+}
+
 TEST(System, SameBitsForAnyNumberOfThreads) {
     const Mesh mesh = shapes::scan(30000);
     const double k = 2 * pi / (20 * mean_edge(mesh));
