@@ -15,12 +15,37 @@ Vec3 area_vector(const Face& f, const Positions& p) { return (p[f[1]] - p[f[0]])
 constexpr double least_cosine_square = 0.5;
 constexpr int most_halvings = 20;
 
+/// The area vector of each face and those of all faces around its corners, summed.
+struct FaceVectors {
+    FaceVectors(const Faces& faces, const Positions& p) : own(faces.size()), around(p.size(), Vec3::Zero()) {
+        parallel_for(static_cast<Index>(faces.size()), [&](Index i) { own[i] = area_vector(faces[i], p); });
+        for (std::size_t i = 0; i < faces.size(); ++i)
+            for (const Index v : faces[i]) around[v] += own[i];
+    }
+    Vec3 mean(const Face& f) const { return around[f[0]] + around[f[1]] + around[f[2]]; }
+
+    Array<Vec3> own, around;
+};
+
+/// How each face should lie: as in the smooth mesh, or, where that has turned a face over among its neighbours (as it
+/// may thin ones, within a plane even), along those.
+Array<Vec3> upright(const Faces& faces, const Positions& before, const Positions& smooth) {
+    const FaceVectors was(faces, before);
+    FaceVectors is(faces, smooth);
+    parallel_for(static_cast<Index>(faces.size()), [&](Index i) {
+        const Vec3 around = is.mean(faces[i]);
+        const bool same = was.own[i].dot(was.mean(faces[i])) >= 0;
+        if ((is.own[i].dot(around) >= 0) != same) is.own[i] = same ? around : Vec3(-around);
+    });
+    return std::move(is.own);
+}
+
 /// Vertices of faces that are turned too far.
 /// @returns  whether there are any
-bool mark_turned(const Faces& faces, const Positions& from, const Positions& to, Array<std::uint8_t>& bad_face,
+bool mark_turned(const Faces& faces, const Array<Vec3>& upright, const Positions& to, Array<std::uint8_t>& bad_face,
                  Array<std::uint8_t>& bad) {
     parallel_for(static_cast<Index>(faces.size()), [&](Index i) {
-        const Vec3 a = area_vector(faces[i], from), b = area_vector(faces[i], to);
+        const Vec3 &a = upright[i], b = area_vector(faces[i], to);
         const double dot = a.dot(b);
         bad_face[i] = dot < 0 || dot * dot < least_cosine_square * a.squaredNorm() * b.squaredNorm();
     });
@@ -59,8 +84,9 @@ void move_along_normals(const Mesh& mesh, const Stiffness& neighbours, Positions
         moved[i] = smooth[i] - along[i];
     });
     Array<double> share(smooth.size(), 1), halved(smooth.size());
+    const Array<Vec3> to = upright(mesh.faces, mesh.positions, smooth);
     Array<std::uint8_t> bad_face(mesh.faces.size()), bad(smooth.size());
-    for (int step = 0; step < most_halvings && mark_turned(mesh.faces, smooth, moved, bad_face, bad); ++step) {
+    for (int step = 0; step < most_halvings && mark_turned(mesh.faces, to, moved, bad_face, bad); ++step) {
         parallel_for(n, [&](Index i) { halved[i] = bad[i] ? share[i] / 2 : share[i]; });
         parallel_for(n, [&](Index i) {
             double sum = 0;

@@ -11,8 +11,9 @@ namespace multires {
 Array<Vec3> directions(const Faces& faces, const Positions& positions);
 
 /// Takes from the way of each vertex from mesh.positions to `smooth` the part along the surface `smooth`, as far as no
-/// face turns by more than 45 degrees against that surface. Where one would, its vertices and those around them take
-/// half of what is left of that part, and so on.
+/// face turns by more than 45 degrees against that surface (where that has turned a face over among its neighbours,
+/// against those). Where one would, its vertices and those around them take half of what is left of that part, and so
+/// on.
 /// @param neighbours  of the mesh: offset and column
 /// @param smooth      #V by 3; the result afterwards
 /// Cost: linear; a pass over the faces for each halving, 20 at most. Same bits for any number of threads.
