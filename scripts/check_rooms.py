@@ -16,10 +16,12 @@ COMMON = {
     **{room: ["base", "mesh"] for room in FLOOR},
     "solvers": ["base", "mesh", "operators", "hierarchy"],
     "schemes": ["base", "mesh", "operators", "hierarchy"],
+    "editing": ["base", "mesh", "measure", "solvers"],
     "bands": ["base", "mesh", "measure", "solvers"],
     "pyramid": ["base", "mesh", *FLOOR, "solvers", "schemes"],
     "denoise": ["base", "mesh", *FLOOR],
-    "filters": ["base", "mesh", *FLOOR, "solvers", "bands", "schemes", "pyramid", "denoise"],
+    "filters": ["base", "mesh", *FLOOR, "solvers", "bands", "schemes", "pyramid", "denoise",
+                "editing"],
 }
 PLUGINS = {
     "shared": list(COMMON),

@@ -70,6 +70,34 @@ def warped(v, f):
     return ms
 
 
+def edited(v, f):
+    """Three layers: the mesh, a decimated copy, and that with its upper half bent and turned; the mesh is current."""
+    ms = document(v, f)
+    ms.generate_copy_of_current_mesh()
+    ms.meshing_decimation_quadric_edge_collapse(targetfacenum=600)
+    proxy, faces = arrays(ms.current_mesh())
+    low, size = v.min(axis=0), np.ptp(v, axis=0)
+    height = np.clip((proxy[:, 1] - low[1]) / size[1] - 0.45, 0, None)
+    centre = low + [0.3 * size[0], 0.45 * size[1], 0.5 * size[2]]
+    turn, bend = 0.9 * height, 1.1 * height
+    x, y, z = (proxy - centre).T
+    x, z = x * np.cos(turn) + z * np.sin(turn), z * np.cos(turn) - x * np.sin(turn)
+    x, y = x * np.cos(bend) - y * np.sin(bend), y * np.cos(bend) + x * np.sin(bend)
+    ms.add_mesh(pymeshlab.Mesh(np.column_stack([x, y, z]) + centre, faces))
+    ms.set_current_mesh(0)
+    return ms
+
+
+def head(v, f):
+    """The mesh with its head selected."""
+    ms = document(v, f)
+    low, size = v.min(axis=0), np.ptp(v, axis=0)
+    ms.compute_selection_by_condition_per_vertex(
+        condselect=f"(y > {low[1] + 0.78 * size[1]}) || ((x < {low[0] + 0.4 * size[0]}) && (y > {low[1] + 0.6 * size[1]}))"
+    )
+    return ms
+
+
 # ---- looks -----------------------------------------------------------------------------------------------------------
 
 
@@ -162,6 +190,24 @@ PAIRS = {
     ),
     "apply_coord_multires_unsharp": (document, shaded, "", {"xi": 3}, shaded, "xi 3, 10 steps"),
     "apply_coord_multires_denoise": (noisy, shaded, "noise of 0.2 edge lengths", {}, shaded, "no parameter given"),
+    "apply_coord_multires_transfer_edit": (
+        edited,
+        shaded,
+        "",
+        {"before": 1, "edited": 2},
+        shaded,
+        "a proxy of 300 vertices was bent",
+    ),
+    "apply_coord_multires_displace": (
+        head,
+        shaded,
+        "",
+        {"falloff": 0.05, "translation": [0.005, 0.025, 0], "angle": -35, "axis": [0, 0, 1]},
+        shaded,
+        "the head up and back",
+    ),
+    "compute_scalar_multires_falloff_per_vertex": (head, shaded, "", {"falloff": 0.05}, quality, "around the head"),
+    "generate_multires_base": (document, shaded, "", {"vertices": 400}, shaded, "through 400 vertices"),
     "apply_attributes_multires_relaxation": (
         with_colors,
         painted,

@@ -38,6 +38,9 @@ struct Layer {
     Eigen::Matrix4d to_world = Eigen::Matrix4d::Identity();
 };
 
+/// The custom vertex attribute of layers made of a DerivedMesh that holds its source_vertex.
+inline constexpr const char* source_vertex_name = "source_vertex";
+
 /// A mesh made of vertices of another one; the host carries all attributes over by these indices.
 struct DerivedMesh {
     std::string name;                    ///< label of the new layer

@@ -147,8 +147,6 @@ void build_wedges(M& target, const M& source, const VcgLayer& flat, const Derive
     }
 }
 
-inline constexpr const char* source_vertex_name = "source_vertex";
-
 /// Copies the named attributes in `from` by `rows`; `make(name, type pointer)` creates the one to be filled.
 template <class Container, class Make>
 void build_custom(const std::set<vcg::PointerToAttribute>& from, const std::vector<Index>& rows, Make make,
@@ -203,8 +201,7 @@ std::vector<std::string> build_derived(M& target, const M& source, const VcgLaye
     std::vector<std::string> left_out = vcg_detail::build_customs(target, source, flat, derived);
 
     const auto number = [&](auto type) {
-        auto data = vcg::tri::Allocator<M>::template GetPerVertexAttribute<decltype(type)>(
-            target, vcg_detail::source_vertex_name);
+        auto data = vcg::tri::Allocator<M>::template GetPerVertexAttribute<decltype(type)>(target, source_vertex_name);
         for (std::size_t i = 0; i < derived.source_vertex.size(); ++i)
             data[i] = static_cast<decltype(type)>(derived.source_vertex[i]);
     };

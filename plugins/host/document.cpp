@@ -125,7 +125,12 @@ VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model) {
     return placed_layer(model, request);
 }
 
-VcgLayer read_layer(const MeshModel& model) { return placed_layer(model, {}); }
+VcgLayer read_layer(const MeshModel& model) {
+    AttributeRequest request;
+    for (const std::string& name : custom_attribute_names(model.cm))
+        if (name == source_vertex_name) request.custom.push_back(name);
+    return placed_layer(model, request);
+}
 
 struct PendingResult::Parts {
     Parts(MeshDocument& document, MeshModel& to, const VcgLayer& from, Result what, Kept to_keep)

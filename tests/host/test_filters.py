@@ -25,10 +25,12 @@ LOW_PASS, STOP_BAND = "apply_coord_multires_low_pass", "apply_coord_multires_sto
 ENHANCE, EQUALIZER = "apply_coord_multires_enhance", "apply_coord_multires_equalizer"
 UNSHARP = "apply_coord_multires_unsharp"
 ADAPTIVE = "generate_multires_adaptive_reconstruction"
-NEW_LAYER = [LEVEL, ADAPTIVE]
-MOVING = [name for name in FILTER_IDS if name.startswith("apply_coord")]
+BASE = "generate_multires_base"
+DISPLACE, FALLOFF = "apply_coord_multires_displace", "compute_scalar_multires_falloff_per_vertex"
+NEW_LAYER = [LEVEL, ADAPTIVE, BASE]
+MOVING = [name for name in FILTER_IDS if name.startswith("apply_coord") and name != DISPLACE]  # which asks where to
 ROUGHNESS = "compute_multires_roughness"
-WITH_PYRAMID = [name for name in FILTER_IDS if name not in (UNSHARP, ROUGHNESS)]
+WITH_PYRAMID = [name for name in FILTER_IDS if name not in (UNSHARP, ROUGHNESS, DISPLACE, FALLOFF)]
 
 POSITIONS = {"vertices", "normals", "face normals", "box"}
 ATTRIBUTES = {"vertex_color_matrix", "vertex_scalar_array", "vertex_tex_coord_matrix", "wedge_tex_coord_matrix"}
@@ -109,7 +111,7 @@ def check_outcome(ms, name, before, report):
     """What every call that succeeds promises."""
     assert report and all(all_finite(value) for value in report.values())
     here = before["current"]
-    allowed = POSITIONS if name in MOVING else {"vertex_scalar_array", "has"} if name == DETAIL else set()
+    allowed = POSITIONS if name in [*MOVING, DISPLACE] else {"vertex_scalar_array", "has"} if name in (DETAIL, FALLOFF) else set()
     if name.startswith("apply_attributes"):
         allowed = ATTRIBUTES
     if name.endswith("texcoord"):

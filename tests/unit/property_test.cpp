@@ -295,7 +295,10 @@ void expect_placed(const Placing& place, const Result& here, const Result& there
 static bool applies(const Placing& place, const Filter& filter, const Variant& variant) {
     const bool turned = !place.turn.isIdentity(), turned_over = (place.turn.determinant() < 0) != place.reversed;
     const bool keeps_box = place.turn.cwiseAbs().maxCoeff() == 1;
-    if (filter.python_name == "generate_multires_texcoord") return !turned;  // projects along the axes
+    if (filter.python_name == "generate_multires_texcoord") return !turned;                 // projects along the axes
+    const bool share = filter.python_name == "compute_scalar_multires_falloff_per_vertex";  // not a length
+    if (share || has(variant, "store_falloff", 1)) return place.scale == 1 && (share || !turned);
+    if (filter.python_name == "apply_coord_multires_displace") return !turned;  // an axis of the world's
     // Percent of the box, which has the world's axes; or a default that is a length.
     if (filter.python_name == "generate_multires_adaptive_reconstruction")
         return keeps_box && (place.scale == 1 || !has(variant, "unit", 0));

@@ -1,6 +1,7 @@
 #include "filters/layers/difference.h"
 
 #include "base/parallel.h"
+#include "filters/placement.h"
 #include "measure/signed_distance.h"
 #include "mesh/validation.h"
 #include "pyramid/band.h"
@@ -10,19 +11,6 @@
 
 namespace multires {
 namespace {
-
-/// The positions of a layer in the document.
-Positions in_world(const Layer& layer, const char* which) {
-    Positions placed = layer.mesh.positions;
-    const Eigen::Matrix4d& m = layer.to_world;
-    if (m.isIdentity(0)) return placed;
-    for (Vec3& p : placed) {
-        const Eigen::Vector4d q = m * p.homogeneous();
-        p = q.head<3>() / q[3];
-        require(p.allFinite(), std::string("the transformation of ") + which + " is not finite");
-    }
-    return placed;
-}
 
 /// Refuses what no distance can be measured to, and says of which layer.
 void require_reference(const Layer& reference, const Layer& current) {

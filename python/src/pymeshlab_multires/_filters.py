@@ -3,17 +3,19 @@
 import dataclasses
 from typing import Literal, TypeAlias
 
-from ._call import Array, MeshSet, also_flat, apply
+from ._call import Array, MeshSet, Vector, also_flat, apply
 
 __all__ = [
     "AdaptiveReconstructionReport", "AttributeChanges", "BuildPyramidReport", "DenoiseAttributesReport",
-    "DenoiseReport", "DetailToQualityReport", "DifferenceToLayerReport", "EnhanceReport", "EqualizerReport", "Features",
-    "FilterAttributesReport", "FilterCustomAttributesReport", "GenerateTexcoordReport", "Grouping", "LIMITS",
-    "LevelAsLayerReport", "LowPassReport", "Mode", "Movement", "Operator", "Order", "Pyramid", "PyramidUse",
-    "RelativeTo", "RelaxAttributesReport", "Result", "RoughnessReport", "Scheme", "StopBandReport", "Storage",
+    "DenoiseReport", "DetailToQualityReport", "DifferenceToLayerReport", "EnhanceReport", "EqualizerReport",
+    "FalloffToQualityReport", "Features", "FilterAttributesReport", "FilterCustomAttributesReport",
+    "GenerateTexcoordReport", "Grouping", "LIMITS", "LevelAsLayerReport", "LowPassReport", "Mode", "MoveRegionReport",
+    "Movement", "Operator", "Order", "Pyramid", "PyramidUse", "RelativeTo", "RelaxAttributesReport", "Result",
+    "RoughnessReport", "Scheme", "SmoothBaseAsLayerReport", "StopBandReport", "Storage", "TransferEditReport",
     "UnsharpReport", "adaptive_reconstruction", "build_pyramid", "denoise", "denoise_attributes", "detail_to_quality",
-    "difference_to_layer", "enhance", "equalizer", "filter_attributes", "filter_custom_attributes", "generate_texcoord",
-    "level_as_layer", "low_pass", "relax_attributes", "roughness", "stop_band", "unsharp",
+    "difference_to_layer", "enhance", "equalizer", "falloff_to_quality", "filter_attributes",
+    "filter_custom_attributes", "generate_texcoord", "level_as_layer", "low_pass", "move_region", "relax_attributes",
+    "roughness", "smooth_base_as_layer", "stop_band", "transfer_edit", "unsharp",
 ]
 
 Scheme: TypeAlias = Literal["Roy", "Guskov", "Lazy"]
@@ -403,6 +405,55 @@ class DenoiseReport(Movement, Result):
     """Thresholding: vertices at non-manifold edges or points."""
     unreferenced_vertices: int | None = None
     """Thresholding: vertices without a face."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class TransferEditReport(Movement, Result):
+    """What transfer_edit() returns."""
+
+    way: int
+    """What the edited proxy was compared with: 1 a level of the current layer, 2 the proxy before, 3 a level that
+    was wrapped onto it."""
+    proxy_distance: float
+    """Root mean square distance of the vertices to the proxy before (mesh units)."""
+    folded_faces: int
+    """Faces that lie the other way round than the motion of the proxy near them would have it."""
+    pyramid_reused: bool | None = None
+    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
+    locked_vertices: int | None = None
+    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
+    unreferenced_vertices: int | None = None
+    """Vertices without a face, which stay where they are."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class MoveRegionReport(Movement, Result):
+    """What move_region() returns."""
+
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class FalloffToQualityReport(Result):
+    """What falloff_to_quality() returns."""
+
+    vertices_inside: int
+    """Vertices of the selection."""
+    vertices_between: int
+    """Vertices between it and what is out of reach."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class SmoothBaseAsLayerReport(PyramidUse, Result):
+    """What smooth_base_as_layer() returns."""
+
+    vertices_kept: int
+    """Vertices that stay where they are."""
+    rms_displacement: float
+    """Root of the mean square of the ways of all vertices to the base (mesh units)."""
+    largest_displacement: float
+    """The longest of these ways (mesh units)."""
+    solver_steps: int
+    """Steps of conjugate gradients."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -965,6 +1016,136 @@ def denoise(
     return apply(DenoiseReport, "apply_coord_multires_denoise", **locals())
 
 
+@also_flat(Pyramid)
+def transfer_edit(
+    ms: MeshSet, *, edited: int | None = None, before: int | None = None,
+    details: Literal["multiresolution", "single resolution", "none"] = "multiresolution", gain: float = 1.0,
+    encoding: Literal["gradient", "frames"] = "gradient", selected: bool | None = None, quality_mask: bool = False,
+    soft_border: float | None = None, pyramid: Pyramid | None = None,
+) -> TransferEditReport:
+    """Lets the current layer, a scan say, follow the edit of a coarse mesh near it: export a decimated copy or a level,
+    change it in any editor, import it, and the scan changes with it and keeps its detail, colours and texture.
+
+    An edit that changes nothing leaves every vertex exactly where it is.
+
+    The filter apply_coord_multires_transfer_edit, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        edited: The coarse mesh near the current one, after it was edited. None: the first other layer.
+        before: The coarse mesh before it was edited, with the same vertices and faces in the same order. The same layer
+            as the edited proxy if there is none: that one is then taken for a level of the current layer or, if it is
+            none (remeshed, sculpted), a level is wrapped onto it. None: the first other layer.
+        details: What becomes of detail finer than the proxy. Multiresolution: it turns and stretches with the surface.
+            Single resolution: it keeps its direction in space. None: it is left out.
+        gain: Factor of the detail finer than the proxy; 1 is as it is. A number, 0 to 4.
+        encoding: Gradient: the proxy's turning and stretching is applied to the gradients of the surface, which is then
+            put together by one linear solve; the most exact. Frames: a level of the pyramid moves, and details in
+            frames of coarser levels follow.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        soft_border: Only on selection: distance from the border of the selection, mesh units, at which it takes full
+            effect; 0 is a sharp border. A number, at least 0. None: derived from the mesh.
+        pyramid: how the pyramid is built. None: the filter's defaults.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
+        Vorsatz, Kobbelt, "Robust Multi-Band Detail Encoding for Triangular Meshes of Arbitrary Connectivity", VMV 1999.
+    """
+    return apply(TransferEditReport, "apply_coord_multires_transfer_edit", **locals())
+
+
+@also_flat(Pyramid)
+def move_region(
+    ms: MeshSet, *, falloff: float | None = None, translation: Vector = (0.0, 0.0, 0.0), angle: float = 0.0,
+    axis: Vector = (0.0, 0.0, 1.0), pivot: Vector | None = None, scale: float = 1.0, details_follow: bool = True,
+    store_falloff: bool = False, pyramid: Pyramid | None = None,
+) -> MoveRegionReport:
+    """Turns, scales and moves the selected part of a layer; the surface around it follows smoothly up to a distance
+    along the surface, and its detail turns with it.
+
+    Without a selection the whole layer moves.
+
+    The filter apply_coord_multires_displace, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        falloff: How far around the selection the surface follows, along it, mesh units. Beyond it nothing moves. A
+            number, at least 0. None: derived from the mesh.
+        translation: Where to the selection moves: x, y and z, mesh units.
+        angle: Degrees by which the selection turns about the axis, counter-clockwise seen from its tip. A number, -180
+            to 180.
+        axis: Direction of the axis that the selection turns about.
+        pivot: The point that the axis passes through and that scale starts from. By default the middle of the selected
+            vertices. None: derived from the mesh.
+        scale: Factor of the selection's size; 1 leaves it. A number, 0.01 to 100.
+        details_follow: Detail finer than the falloff turns with the surface around it. Otherwise every vertex moves on
+            its own.
+        store_falloff: Store the share of the motion that each vertex gets in the vertex quality.
+        pyramid: how the pyramid is built. None: the filter's defaults.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
+    """
+    return apply(MoveRegionReport, "apply_coord_multires_displace", **locals())
+
+
+def falloff_to_quality(
+    ms: MeshSet, *, falloff: float | None = None,
+) -> FalloffToQualityReport:
+    """Stores in the vertex quality a smooth function on the surface that is 1 on the selection and 0 beyond a distance
+    from it: the share of the motion that Move Region gives each vertex, and a mask for the other filters.
+
+    The filter compute_scalar_multires_falloff_per_vertex, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        falloff: How far around the selection the surface follows, along it, mesh units. Beyond it nothing moves. A
+            number, at least 0. None: derived from the mesh.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
+    """
+    return apply(FalloffToQualityReport, "compute_scalar_multires_falloff_per_vertex", **locals())
+
+
+@also_flat(Pyramid)
+def smooth_base_as_layer(
+    ms: MeshSet, *, vertices: int | None = None, pyramid: Pyramid | None = None,
+) -> SmoothBaseAsLayerReport:
+    """Makes a new layer with the same vertices and faces, the smooth surface through some of them: those that the
+    pyramid keeps longest stay, the others go where the bending energy is least.
+
+    To be edited and followed, or to take detail from.
+
+    The filter generate_multires_base, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        vertices: How many vertices stay where they are. Fewer give a smoother base; waves longer than a few of their
+            distances are left. A whole number, at least 4. None: derived from the mesh.
+        pyramid: how the pyramid is built. None: the filter's defaults.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Vorsatz, Kobbelt, "Robust Multi-Band Detail Encoding for Triangular Meshes of Arbitrary Connectivity", VMV 1999.
+    """
+    return apply(SmoothBaseAsLayerReport, "generate_multires_base", **locals())
+
+
 def relax_attributes(
     ms: MeshSet, *, color: bool | None = None, quality: bool | None = None, texcoord: bool | None = None,
     wedge_texcoord: bool | None = None, custom: bool | None = None, custom_names: str = "", iterations: int = 1,
@@ -1316,6 +1497,12 @@ LIMITS: dict[str, dict[str, tuple[float, float]]] = {
     },
     "denoise": {
         "strength": (0, 4), "cycle_spins": (1, 64),
+    },
+    "transfer_edit": {
+        "gain": (0, 4),
+    },
+    "move_region": {
+        "angle": (-180, 180), "scale": (0.01, 100),
     },
     "relax_attributes": {
         "iterations": (1, 10000), "strength": (1e-06, 1), "corner_angle": (0, 180), "feature_angle": (0.01, 179.99),

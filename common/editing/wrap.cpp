@@ -1,0 +1,57 @@
+#include "editing/wrap.h"
+
+#include "base/parallel.h"
+#include "base/reduce.h"
+#include "measure/distance.h"
+#include "measure/measure.h"
+#include "solvers/system.h"
+
+#include <cmath>
+
+namespace multires {
+namespace {
+
+/// From where vertices are to the nearest points of the surface.
+Positions ways_to(const SurfaceTree& tree, const Positions& at, const Progress& progress) {
+    const auto count = static_cast<Index>(at.size());
+    Positions way(at.size());
+    constexpr Index grain = 1024, block = 16 * grain;  // a report after each block
+    for (Index first = 0; first < count; first += block) {
+        progress.report(static_cast<double>(first) / count, "Wrapping a level onto the edited layer");
+        parallel_chunks(std::min(block, count - first), grain, [&](Index begin, Index end) {
+            for (Index i = first + begin; i < first + end; ++i) way[i] = tree.closest(at[i]).point - at[i];
+        });
+    }
+    return way;
+}
+
+}  // namespace
+
+Wrapped wrap(const Mesh& mesh, const Faces& faces, const Positions& surface, const Progress& progress) {
+    constexpr int steps = 16;
+    progress.report(0, "Setting up the equations");
+    const SurfaceTree tree(faces, surface);
+    const System system(mesh, {}, progress.part(0, 0.1));
+    const Stiffness& c = system.matrices();
+    const double longest = bounding_box(mesh.positions).diagonal() / 4;
+    const double shortest = mean_edge_length(mesh.faces, mesh.positions);
+    Wrapped out{mesh.positions, 0};
+    Positions u(mesh.positions.size(), Vec3::Zero()), wanted;
+    for (int step = 0; step < steps; ++step) {
+        const Progress now = progress.part(0.1 + 0.9 * step / steps, 0.1 + 0.9 * (step + 1) / steps);
+        wanted = ways_to(tree, out.positions, now.part(0, 0.5));
+        const double length = longest * std::pow(shortest / longest, static_cast<double>(step) / (steps - 1));
+        for (std::size_t i = 0; i < u.size(); ++i) wanted[i] = c.mass[i] * (wanted[i] + u[i]);
+        SolveOptions how;
+        how.tolerance = 1e-6;
+        system.solve(1, length * length, wanted, u, how, now.part(0.5, 1));
+        for (std::size_t i = 0; i < u.size(); ++i) out.positions[i] = mesh.positions[i] + u[i];
+    }
+    const Positions left = ways_to(tree, out.positions, progress.part(0.99, 1));
+    out.distance = chunked_fold<Lengths>(left.size(), [&](Lengths& part, std::size_t i) {
+                       part.add(left[i].squaredNorm(), c.mass[i]);
+                   }).rms();
+    return out;
+}
+
+}  // namespace multires
