@@ -118,7 +118,10 @@ Positions gradient_domain(const Mesh& fine, Motion& motion, const GradientDomain
         r.values, how, [&](const Array<double>& p, Array<double>& q) { system.apply(p, q); },
         [&](const Array<double>& from, Array<double>& to) { system.precondition(from, to); },
         [&](Index i, const double* change) {
-            if (system.moves(i)) u[i] += Vec3(change[0], change[1], change[2]);
+            if (!system.moves(i)) return 0.0;
+            const Vec3 step(change[0], change[1], change[2]);
+            u[i] += step;
+            return step.squaredNorm();
         },
         [&](int step, double) { progress.report(0.6 + 0.4 * step / (step + 15.0), "Solving"); });
     return u;
