@@ -40,6 +40,23 @@ bool stand_out(const Faces& faces, const Positions& before, const Positions& aft
     return !moved.empty() && quantile(moved, 0.5) > 1.3 * quantile(rest, 0.8);
 }
 
+/// Of the noise along the normals, #V, mesh units.
+std::vector<double> deviations(const Faces& faces, const Positions& positions, const Neighbours& near,
+                               const SurfaceNoise& noise, double edge) {
+    std::vector<double> out(positions.size(), noise.along_normals);
+    if (!noise.axis) return out;
+    const int steps = normal_steps(noise.axis->deviation / edge);
+    const Array<Vec3> normal = vertex_normals(faces, taubin(near, positions, steps));
+    for (std::size_t v = 0; v < out.size(); ++v) out[v] = noise.along(normal[v]);
+    return out;
+}
+
+double root_mean_square(const std::vector<double>& values) {
+    double sum = 0;
+    for (const double x : values) sum += x * x;
+    return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
+}
+
 /// What the choice is made on: the whole mesh, or patches of a large one.
 struct Sample {
     Faces faces;
@@ -272,22 +289,26 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     }
     tick(0.1, "Measuring the noise");
     SurfaceNoise noise = surface_noise(faces, start, at, near, stats.edge);
-    if (options.deviation) noise.along_normals = noise.at_least = *options.deviation;
+    if (options.deviation) {
+        noise.along_normals = noise.at_least = *options.deviation;
+        noise.axis.reset();
+    }
+    Assumed assumed;
+    assumed.deviation = deviations(faces, start, near, noise, stats.edge);
+    noise.along_normals = root_mean_square(assumed.deviation);
+    assumed.certain = noise.along_normals > 0 ? std::pow(noise.at_least / noise.along_normals, 2) : 0;
     noise.along_normals *= options.strength;
-    noise.at_least *= options.strength;
     stats.deviation = noise.along_normals;
-    if (!(noise.at_least > rounding * stats.edge)) return start;
+    stats.axis = noise.axis.has_value();
+    if (!(assumed.certain * noise.along_normals > rounding * stats.edge)) return start;
 
     tick(0.2, "Looking for noise within the surface");
     const WithinSurface within = relax_within_surface(faces, start, near, noise, stats.edge);
     tick(0.25, "Choosing");
     const double in_edges = noise.along_normals / stats.edge;
-    Assumed assumed;
     assumed.factor = allowance(in_edges, count);
-    const double certain = noise.at_least / noise.along_normals;
-    assumed.certain = certain * certain;
     assumed.normal_steps = normal_steps(in_edges);
-    assumed.deviation.assign(count, assumed.factor * noise.along_normals);
+    for (double& d : assumed.deviation) d *= options.strength * assumed.factor;
     const Choice choice = choose_on_sample(faces, shifted(start, within, Shares()), at, near, assumed,
                                            [&](double f) { tick(0.25 + 0.4 * f, "Choosing"); });
     const Shares shares = safe_shares(within, choice);

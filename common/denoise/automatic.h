@@ -18,6 +18,7 @@ struct AutomaticStats {
     double edge = 0;                       ///< mean edge length of the result
     double deviation = 0;                  ///< of the noise along the normals, mesh units
     bool all_directions = false;           ///< the noise was found within the surface too
+    bool axis = false;                     ///< it goes along one axis of space
     double rms_before = 0, rms_after = 0;  ///< estimated distance of the vertices from the truth, mesh units
     Eigen::VectorXd weights;  ///< of all_candidates(); what is left to 1 stays as it is. Empty: nothing was done
 };

@@ -55,6 +55,8 @@ struct Findings {
     double without_bends = 0;                 ///< see energies.h
     double mean = 0;                          ///< of the third details
     double peakedness = 0;                    ///< of the third details
+    std::optional<AxisNoise> axis;
+    double peakedness_along_axis = 0;  ///< of the third details, beside noise along the axis
 };
 
 /// Small meshes are compared with several samples of noise.
@@ -76,9 +78,18 @@ Findings findings(const Faces& faces, const Positions& p, const Incidence& at, c
         const Energies energy = local_energies(near, third, inner);
         mean.quiet_first += quiet_energy(local_energies(near, first, inner), edge) / repeats;
         mean.quiet_third += quiet_energy(energy, edge) / repeats;
-        mean.without_bends += without_bends(energy, local_energies(near, surface.detail(h), inner)) / repeats;
+        const Energies bends = local_energies(near, surface.detail(h), inner);
+        mean.without_bends += without_bends(energy, bends) / repeats;
+        if (repeat == 0) mean.axis = axis_noise(near, base.normal, inner, energy, bends);
         mean.mean += energy.mean() / repeats;
         mean.peakedness += peakedness(near, third, inner) / repeats;
+    }
+    if (mean.axis) {
+        std::vector<double> h(3 * near.rows(), 0);
+        for (Index v = 0; v < near.rows(); ++v)
+            for (int c = 1; c < 3; ++c) h[3 * v + c] = gaussian(v, 100 + c) * base.normal[v].dot(mean.axis->axis);
+        const std::vector<double> third = surface.linear_detail(surface.linear_detail(surface.detail(h)));
+        mean.peakedness_along_axis = peakedness(near, third, inner);
     }
     return mean;
 }
@@ -101,12 +112,28 @@ double agreed(double quiet, double all, Index vertices, double edge) {
     return quiet + (all - quiet) * std::max(weak, std::min(1.0, vertices / 4000.0));
 }
 
+/// Certainty that details are noise: shape has peaks.
+double like_noise(double peakedness) {
+    constexpr double gaussian_up_to = 1.04, not_from = 1.075;
+    return std::clamp((not_from - peakedness) / (not_from - gaussian_up_to), 0.0, 1.0);
+}
+
 /// Least square of the deviation.
 double least_square(double square, const Findings& f, Index vertices) {
-    constexpr double gaussian_up_to = 1.04, not_from = 1.075, elsewhere = 0.5;
+    constexpr double elsewhere = 0.5;
     const double by_chance = std::max(0.5, 1 - 6 / std::sqrt(static_cast<double>(vertices)));
-    const double like_noise = std::clamp((not_from - f.peakedness) / (not_from - gaussian_up_to), 0.0, 1.0);
-    return like_noise * std::max(0.0, by_chance * square - elsewhere * std::max(0.0, f.mean - square));
+    return like_noise(f.peakedness) * std::max(0.0, by_chance * square - elsewhere * std::max(0.0, f.mean - square));
+}
+
+/// Noise along an axis explains much of the energies, so that it is as certain as their kind.
+void add_axis(const Findings& f, const Array<Vec3>& normal, SurfaceNoise& noise) {
+    if (!f.axis || !(f.axis->deviation > noise.along_normals)) return;
+    constexpr double certain = 0.7;
+    noise.axis = f.axis;
+    noise.along_normals = std::min(noise.along_normals, f.axis->across);
+    double square = 0;
+    for (const Vec3& n : normal) square += std::pow(noise.along(n), 2) / static_cast<double>(normal.size());
+    noise.at_least = std::max(noise.at_least, std::sqrt(certain * like_noise(f.peakedness_along_axis) * square));
 }
 
 /// Detail of the places, twice: like AlongNormals::detail with equal weights, for vectors.
@@ -140,18 +167,27 @@ double within_surface(const Positions& p, const Neighbours& near, const Array<Ve
 
 }  // namespace
 
+double SurfaceNoise::along(const Vec3& normal) const {
+    const double own = along_normals * along_normals;
+    if (!axis) return along_normals;
+    const double across = normal.dot(axis->axis);
+    return std::sqrt(own + std::max(0.0, axis->deviation * axis->deviation - own) * across * across);
+}
+
 SurfaceNoise surface_noise(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
                            double edge) {
     SurfaceNoise noise;
     if (near.rows() == 0 || faces.empty() || !(edge > 0)) return noise;
     Findings found = findings(faces, positions, at, near, edge, 3);
     // Strong noise needs smoother normals.
-    if (std::sqrt(found.quiet_third) > 0.12 * edge) found = findings(faces, positions, at, near, edge, 8);
+    if (std::sqrt(found.mean) > 0.12 * edge) found = findings(faces, positions, at, near, edge, 8);
     const double deviation =
         agreed(quiet_deviation(found, near.rows(), edge), std::sqrt(found.without_bends), near.rows(), edge);
     noise.along_normals = deviation;
     noise.at_least = std::sqrt(least_square(deviation * deviation, found, near.rows()));
-    noise.within_surface = within_surface(positions, near, smoothed(faces, positions, near, 3).normal);
+    const Array<Vec3> normal = smoothed(faces, positions, near, 3).normal;
+    add_axis(found, normal, noise);
+    noise.within_surface = within_surface(positions, near, normal);
     return noise;
 }
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "denoise/neighbours.h"
-
-#include <optional>
+#include "denoise/axis_noise.h"
 
 namespace multires {
 
@@ -15,6 +13,11 @@ struct SurfaceNoise {
     /// Of the vertices' places within the surface in each of two directions, mesh units: an upper bound of the noise
     /// there, for an irregular sampling looks the same.
     double within_surface = 0;
+    /// Beside the former two, which are what there is of it in all directions.
+    std::optional<AxisNoise> axis;
+
+    /// Along normals of this direction.
+    double along(const Vec3& normal) const;
 };
 
 /// Estimates the noise from third differences along smoothed normals, in units of what white noise of deviation 1
@@ -24,7 +27,8 @@ struct SurfaceNoise {
 /// - Shape has details where it bends: the part of the energies counts that does not go with the bends.
 /// If both agree it is the second, which uses all vertices, otherwise the smaller.
 ///
-/// Noise that is not the same everywhere is underestimated: its quietest part counts.
+/// Noise along one axis is looked for as well (axis_noise.h). Other noise that is not the same everywhere is
+/// underestimated: its quietest part counts.
 /// @param edge  mean edge length
 /// Cost: linear, about 120 passes over the neighbours
 SurfaceNoise surface_noise(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,

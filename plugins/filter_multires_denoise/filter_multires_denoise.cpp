@@ -115,6 +115,7 @@ const Returns denoise_returns{
     {"noise", Type::real, "mesh units", "Standard deviation of the noise found, along the normals."},
     {"noise_in_edges", Type::real, "", "Automatic: the same in mean edge lengths.", false},
     {"noise_in_all_directions", Type::boolean, "", "Automatic: the noise was found within the surface too.", false},
+    {"noise_along_axis", Type::boolean, "", "Automatic: most of the noise goes along one axis of space.", false},
     {"spikes_removed", Type::integer, "", "Vertices found to be impulses and set back first.", false},
     {"estimated_rms_before", Type::real, "mesh units",
      "Automatic: expected RMS distance of the vertices from the truth.", false},

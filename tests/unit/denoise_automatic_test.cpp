@@ -150,6 +150,25 @@ TEST(AutomaticDenoise, FindsNoiseWithinTheSurface) {
     }
 }
 
+TEST(AutomaticDenoise, FindsNoiseAlongAnAxis) {
+    for (const Shape& shape : clean_shapes())
+        for (const Model model : {Model::along_axis, Model::along_normals, Model::all_directions, Model::impulsive})
+            for (const double deviation : {0.05, 0.2}) {
+                SCOPED_TRACE(std::string(shape.name) + ", noise model " + std::to_string(static_cast<int>(model)) +
+                             ", " + std::to_string(deviation));
+                const Mesh mesh = noisy(shape.mesh, model, deviation);
+                const Result result = run(layer_of(mesh));
+                // A terrain faces one way: there it makes no difference.
+                const bool axis = model == Model::along_axis;
+                if (!axis || shape.name != std::string("terrain")) {
+                    EXPECT_EQ(value<bool>(result.report, "noise_along_axis"), axis);
+                }
+                if (!axis || deviation < 0.1) continue;
+                const Positions after = result.positions.value_or(mesh.positions);
+                EXPECT_LE(error_of(shape.mesh, after).angle, 0.5 * error_of(shape.mesh, mesh.positions).angle);
+            }
+}
+
 TEST(AutomaticDenoise, ChangesNoBitAtStrengthZero) {
     const Mesh mesh = noisy(shapes::irregular_sphere(1000), Model::along_normals, 0.2);
     DenoiseOptions options;

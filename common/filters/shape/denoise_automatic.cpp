@@ -48,11 +48,14 @@ void tell(const AutomaticStats& stats, const Shares& shares, Report& report) {
     if (stats.spikes > 0)
         report.say(text("%d vertices were impulses and were set back.", static_cast<int>(stats.spikes)));
     if (stats.weights.size() == 0) {
-        report.say(stats.spikes > 0 ? "No other noise was found." : "No noise was found; the mesh stays as it is.");
+        report.say(std::string(stats.spikes > 0 ? "No other noise was found" : "No noise was found") +
+                   (stats.deviation > 1e-3 * stats.edge ? " that can be told from the shape" : "") +
+                   (stats.spikes > 0 ? "." : "; the mesh stays as it is."));
         return;
     }
-    report.say(text("Noise of %.3g edge lengths along the normals%s.", stats.deviation / stats.edge,
-                    stats.all_directions ? " and within the surface" : ""));
+    report.say(text("Noise of %.3g edge lengths along the normals%s%s.", stats.deviation / stats.edge,
+                    stats.all_directions ? " and within the surface" : "",
+                    stats.axis ? ", most of it along one axis of space" : ""));
     report.say(text("Blend: %.0f %% low pass, %.0f %% local Wiener filter, %.0f %% normal field (piecewise smooth), "
                     "%.0f %% unchanged.",
                     100 * shares.linear, 100 * shares.wiener, 100 * shares.field, 100 * shares.kept()));
@@ -78,6 +81,7 @@ Positions by_automatic(const Layer& layer, const DenoiseOptions& o, double given
     report.add("noise", o.strength > 0 ? stats.deviation / o.strength : 0.0, "mesh units");
     report.add("noise_in_edges", o.strength > 0 && stats.edge > 0 ? stats.deviation / o.strength / stats.edge : 0.0);
     report.add("noise_in_all_directions", stats.all_directions);
+    report.add("noise_along_axis", stats.axis);
     report.add("spikes_removed", static_cast<int>(stats.spikes));
     report.add("estimated_rms_before", stats.rms_before, "mesh units");
     report.add("estimated_rms_after", stats.rms_after, "mesh units");

@@ -1,0 +1,122 @@
+#include "denoise/axis_noise.h"
+
+#include "base/reduce.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+constexpr int local_steps = 6;        ///< averaging of the energies, and so of the directions
+constexpr int reweighted = 8;         ///< steps of the fit
+constexpr double explains = 0.12;     ///< share by which the deviations from the fit must fall
+constexpr double stands_out = 2;      ///< of the deviation along the axis, to that in the next direction
+constexpr double faced = 0.1;         ///< mean squared cosine of the normals to the axis, at least
+constexpr double least_share = 0.05;  ///< of the mean energy: what is less counts no more than this in the fit
+
+constexpr int columns = 7;  ///< six of the covariance, the bends
+using Row = Eigen::Matrix<double, columns, 1>;
+using Square = Eigen::Matrix<double, columns, columns>;
+
+struct Equations {
+    Square matrix = Square::Zero();
+    Row right = Row::Zero();
+    Equations& operator+=(const Equations& o) {
+        matrix += o.matrix;
+        right += o.right;
+        return *this;
+    }
+};
+
+/// The products of the normals' coordinates, averaged as the energies are, and the bends.
+std::vector<Row> rows(const Neighbours& near, const Array<Vec3>& normal, const std::vector<Index>& inner,
+                      const Energies& bends) {
+    constexpr std::size_t width = 6;
+    std::vector<double> products(width * normal.size());
+    for (std::size_t v = 0; v < normal.size(); ++v) {
+        const Vec3& n = normal[v];
+        const std::array<double, width> p = {n.x() * n.x(),     n.y() * n.y(),     n.z() * n.z(),
+                                             2 * n.x() * n.y(), 2 * n.x() * n.z(), 2 * n.y() * n.z()};
+        std::copy(p.begin(), p.end(), products.begin() + static_cast<std::ptrdiff_t>(width * v));
+    }
+    average(near, products, width, local_steps);
+    std::vector<Row> out(inner.size());
+    for (std::size_t i = 0; i < inner.size(); ++i) {
+        for (std::size_t c = 0; c < width; ++c)
+            out[i][static_cast<Eigen::Index>(c)] = products[width * static_cast<std::size_t>(inner[i]) + c];
+        out[i][columns - 1] = bends.field[i];
+    }
+    return out;
+}
+
+struct Fit {
+    Row found = Row::Zero();
+    double deviation = 0;  ///< mean size of what is not explained
+};
+
+/// @param all_directions  the same noise in all of them
+Fit fitted(const std::vector<Row>& row, const std::vector<double>& energy, double mean, bool all_directions) {
+    Square kept = Square::Identity();  // all directions: the trace alone
+    if (all_directions) {
+        kept.topLeftCorner<6, 6>().setZero();
+        kept.block<3, 1>(0, 0).setOnes();
+    }
+    Fit fit;
+    fit.found.head<3>().setConstant(mean);
+    const auto explained = [&](std::size_t i) {
+        return std::max(0.0, row[i].head<6>().dot(fit.found.head<6>())) +
+               std::max(0.0, fit.found[columns - 1]) * row[i][columns - 1];
+    };
+    for (int step = 0; step < reweighted; ++step) {
+        Equations all = chunked_fold<Equations>(row.size(), [&](Equations& part, std::size_t i) {
+            const double weight = 1 / std::pow(explained(i) + least_share * mean, 2);
+            const Row r = kept.transpose() * row[i];
+            part.matrix += weight * r * r.transpose();
+            part.right += weight * energy[i] * r;
+        });
+        all.matrix.diagonal().array() += 1e-9 * all.matrix.trace();
+        fit.found = kept * all.matrix.ldlt().solve(all.right);
+        if (fit.found[columns - 1] < 0) {
+            all.matrix.row(columns - 1).setZero();
+            all.matrix.col(columns - 1).setZero();
+            all.matrix(columns - 1, columns - 1) = 1;
+            all.right[columns - 1] = 0;
+            fit.found = kept * all.matrix.ldlt().solve(all.right);
+        }
+    }
+    fit.deviation = chunked_fold<Mean>(row.size(), [&](Mean& part, std::size_t i) {
+                        part.add(std::abs(energy[i] - explained(i)));
+                    }).value();
+    return fit;
+}
+
+}  // namespace
+
+std::optional<AxisNoise> axis_noise(const Neighbours& near, const Array<Vec3>& normal, const std::vector<Index>& inner,
+                                    const Energies& energy, const Energies& bends) {
+    const double mean = energy.mean();
+    if (!(mean > 0)) return std::nullopt;
+    const std::vector<Row> row = rows(near, normal, inner, bends);
+    const Fit same = fitted(row, energy.field, mean, true), own = fitted(row, energy.field, mean, false);
+    if (!own.found.allFinite() || !(own.deviation < (1 - explains) * same.deviation)) return std::nullopt;
+    const Row& c = own.found;
+    Eigen::Matrix3d covariance;
+    covariance << c[0], c[3], c[4], c[3], c[1], c[5], c[4], c[5], c[2];
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
+    const Eigen::Vector3d& values = solver.eigenvalues();
+    if (!(values[2] > stands_out * stands_out * std::max(0.0, values[1]))) return std::nullopt;
+    const Vec3 axis = solver.eigenvectors().col(2);
+    const auto facing = chunked_fold<Mean>(inner.size(), [&](Mean& part, std::size_t i) {
+        part.add(std::pow(axis.dot(normal[static_cast<std::size_t>(inner[i])]), 2));
+    });
+    if (facing.value() < faced) return std::nullopt;  // nothing is known of noise that runs along the surface
+    // Where it bends, noise shows as bends, too.
+    const double rest = std::max(0.1, 1 - std::max(0.0, c[columns - 1]));
+    return AxisNoise{axis, std::sqrt(values[2] / rest), std::sqrt(std::max(0.0, values[1]) / rest)};
+}
+
+}  // namespace multires
