@@ -13,7 +13,7 @@ namespace {
 
 constexpr int local_steps = 6;        ///< averaging of the energies, and so of the directions
 constexpr int reweighted = 8;         ///< steps of the fit
-constexpr double explains = 0.12;     ///< share by which the deviations from the fit must fall
+constexpr double explains = 0.1;      ///< share by which the deviations from the fit must fall, and 3 / root of #V
 constexpr double stands_out = 2;      ///< of the deviation along the axis, to that in the next direction
 constexpr double faced = 0.1;         ///< mean squared cosine of the normals to the axis, at least
 constexpr double least_share = 0.05;  ///< of the mean energy: what is less counts no more than this in the fit
@@ -101,8 +101,9 @@ std::optional<AxisNoise> axis_noise(const Neighbours& near, const Array<Vec3>& n
     const double mean = energy.mean();
     if (!(mean > 0)) return std::nullopt;
     const std::vector<Row> row = rows(near, normal, inner, bends);
+    const double least_explained = explains + 3 / std::sqrt(static_cast<double>(inner.size()));
     const Fit same = fitted(row, energy.field, mean, true), own = fitted(row, energy.field, mean, false);
-    if (!own.found.allFinite() || !(own.deviation < (1 - explains) * same.deviation)) return std::nullopt;
+    if (!own.found.allFinite() || !(own.deviation < (1 - least_explained) * same.deviation)) return std::nullopt;
     const Row& c = own.found;
     Eigen::Matrix3d covariance;
     covariance << c[0], c[3], c[4], c[3], c[1], c[5], c[4], c[5], c[2];
