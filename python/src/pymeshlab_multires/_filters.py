@@ -373,6 +373,8 @@ class DenoiseReport(Movement, Result):
     """Automatic: the same in mean edge lengths."""
     noise_in_all_directions: bool | None = None
     """Automatic: the noise was found within the surface too."""
+    noise_along_axis: bool | None = None
+    """Automatic: most of the noise goes along one axis of space."""
     spikes_removed: int | None = None
     """Vertices found to be impulses and set back first."""
     estimated_rms_before: float | None = None
