@@ -4,6 +4,8 @@
 #include "hierarchy/hierarchy.h"
 #include "hierarchy/quadric.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 
@@ -85,6 +87,45 @@ inline Quadric vertex_quadric(Index v, const Ring& ring, const Positions& p, dou
 inline double cost(const Quadric& qv, double target_error, const Vec3& d, double length_weight) {
     const double quadric = qv.at(d) + target_error;
     return (quadric > 0 ? quadric : 0) + length_weight * qv.weight() * d.squaredNorm();
+}
+
+/// Split::regression_plane: the distance of a vertex from the plane that fits its ring best, or from the line through
+/// its two neighbours if it may only go along a curve.
+inline double distance_from_ring(Index v, const Ring& ring, const Directions& directions, const Positions& p) {
+    Vec3 mean(0, 0, 0);
+    Index count = 0;
+    const bool curve = !ring.closed() || ring.features() != 0;
+    const auto counts = [&](Index j) { return !curve || directions.allows(j); };
+    for (Index j = 0; j < ring.size; ++j)
+        if (counts(j)) mean += p[ring.vertex[j]], ++count;
+    mean /= count;
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    for (Index j = 0; j < ring.size; ++j) {
+        const Vec3 d = p[ring.vertex[j]] - mean;
+        if (counts(j)) spread += d * d.transpose();
+    }
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
+    axes.computeDirect(spread);
+    const Vec3 off = axes.eigenvectors().transpose() * (p[v] - mean);
+    return curve ? off.head(2).norm() : std::abs(off[0]);
+}
+
+/// The same criterion's cost of v -> u: the sum of 1 - cos over the turns of the faces that stay (Szczesna 2011, eq.
+/// 14). A face that becomes one without a normal counts as turned over.
+inline double sum_of_turns(Index v, Index u, const Ring& ring, const Positions& p) {
+    const Index triangles = ring.closed() ? ring.size : ring.size - 1;
+    double sum = 0;
+    for (Index j = 0; j < triangles; ++j) {
+        const Index a = ring.vertex[j], b = ring.after(j);
+        if (a == u || b == u) continue;
+        const Vec3 ab = p[b] - p[a], before = ab.cross(p[v] - p[a]), after = ab.cross(p[u] - p[a]);
+        const double squares = before.squaredNorm() * after.squaredNorm();
+        if (squares > 0)
+            sum += 1 - before.dot(after) / std::sqrt(squares);
+        else if (before.squaredNorm() > 0)
+            sum += 2;
+    }
+    return sum;
 }
 
 /// Factor in [0.5, 1.5) that varies the order of collapses with the seed; 1 for seed 0.

@@ -18,6 +18,15 @@ enum class Grouping {
     sequential,
 };
 
+/// Which vertices go first, and into which neighbour.
+enum class Split {
+    quadric,  ///< those of the least cost (Garland and Heckbert 1997), see HierarchyOptions::length_weight
+    /// Those nearest to the plane that fits their ring best; on boundaries and creases, to the line through their two
+    /// neighbours. Into the neighbour for which the sum of 1 - cos of the turns of the faces is least (Szczesna 2011,
+    /// eq. 14). Distances are not relative to anything: flat parts go first.
+    regression_plane,
+};
+
 /// What to build a hierarchy for. All lengths follow the mesh: nothing here depends on its scale.
 struct HierarchyOptions {
     Grouping grouping = Grouping::independent_sets;
@@ -32,6 +41,7 @@ struct HierarchyOptions {
     /// Weight of the edge-length term beside the quadric: cost = (Q_v + Q_u)(p_u) + weight * area_v * |p_v - p_u|^2.
     /// 0: quadric only (Roy); larger values keep vertices of a level evenly spaced, which sharpens bands.
     double length_weight = 0.1;
+    Split split = Split::quadric;
     int seed = 0;             ///< other than 0: costs vary at random by up to half, for another hierarchy
     bool flaps = true;        ///< store Rings::flap, for operators that need the 1-ring with flaps
     bool even_rings = true;   ///< fill Level::even
@@ -78,8 +88,8 @@ struct Hierarchy {
 /// Called now and then with the fraction done; may throw to stop.
 using Tick = std::function<void(double)>;
 
-/// Builds the hierarchy of a mesh by half-edge collapses v -> u in order of the quadric error metric (Garland and
-/// Heckbert 1997), grouped as the options say.
+/// Builds the hierarchy of a mesh by half-edge collapses v -> u in the order that Split says, grouped as the
+/// options say.
 ///
 /// A collapse is allowed if the link condition holds in the mesh as it is at that moment, no normal turns by more
 /// than the limit, and no face becomes degenerate or much worse shaped. Boundary vertices go only along the

@@ -39,7 +39,16 @@ Array<Quadric> vertex_quadrics(const Rings& rings, const Positions& positions, d
     return q;
 }
 
-Candidates rank_vertices(const State& s, double length_weight, int seed) {
+/// The cost of v -> ring(v)[j], which decides between targets.
+double target_cost(const State& s, Index v, Index j, const HierarchyOptions& options) {
+    const Ring ring = ring_of(s.rings, v);
+    const Index u = ring.vertex[j];
+    return options.split == Split::regression_plane
+               ? collapse::sum_of_turns(v, u, ring, s.positions)
+               : collapse::cost(s.quadric[v], s.error[u], s.positions[u] - s.positions[v], options.length_weight);
+}
+
+Candidates rank_vertices(const State& s, const HierarchyOptions& options) {
     const Index n = s.rings.rows();
     Candidates c;
     c.key.resize(n);
@@ -52,13 +61,13 @@ Candidates rank_vertices(const State& s, double length_weight, int seed) {
         double least = std::numeric_limits<double>::infinity();
         for (Index j = 0; j < ring.size; ++j) {
             if (!directions.allows(j)) continue;
-            const Index u = ring.vertex[j];
-            const double cost =
-                collapse::cost(s.quadric[v], s.error[u], s.positions[u] - s.positions[v], length_weight);
+            const double cost = target_cost(s, v, j, options);
             if (cost < least) least = cost, c.target[v] = j;
         }
-        if (least < std::numeric_limits<double>::infinity())
-            c.key[v] = radix_key(static_cast<float>(least * collapse::jitter(v, seed)));
+        if (least == std::numeric_limits<double>::infinity()) return;
+        if (options.split == Split::regression_plane)
+            least = collapse::distance_from_ring(v, ring, directions, s.positions);
+        c.key[v] = radix_key(static_cast<float>(least * collapse::jitter(v, options.seed)));
     });
     return c;
 }
@@ -73,9 +82,8 @@ Candidates rank_vertices(const State& s, double length_weight, int seed) {
 class Selection {
 public:
     Selection(const State& s, const HierarchyOptions& options)
-        : s_(s), length_weight_(options.length_weight),
-          share_(options.set_share), limits_{std::cos(radians(options.normal_limit_degrees))}, degree_(s.rings.rows()),
-          state_(s.rings.rows(), free), parent_(s.rings.rows(), -1) {
+        : s_(s), options_(options), share_(options.set_share), limits_{std::cos(radians(options.normal_limit_degrees))},
+          degree_(s.rings.rows()), state_(s.rings.rows(), free), parent_(s.rings.rows(), -1) {
         parallel_for(s.rings.rows(), [&](Index i) { degree_[i] = s.rings.size(i); });
     }
 
@@ -155,9 +163,7 @@ private:
         const Directions directions(ring);
         for (Index j = 0; j < ring.size; ++j) {
             if (j == best || !directions.allows(j)) continue;
-            const Index u = ring.vertex[j];
-            others.push_back(
-                {collapse::cost(s_.quadric[v], s_.error[u], s_.positions[u] - s_.positions[v], length_weight_), j});
+            others.push_back({target_cost(s_, v, j, options_), j});
         }
         std::sort(others.begin(), others.end());
         for (const auto& [cost, j] : others)
@@ -195,7 +201,8 @@ private:
     }
 
     const State& s_;
-    double length_weight_, share_;
+    const HierarchyOptions& options_;
+    double share_;
     collapse::FaceLimits limits_;
     Array<Index> degree_;
     Array<std::uint8_t> state_;
@@ -282,8 +289,7 @@ std::vector<Step> independent_sets(Rings rings, Positions positions, const Hiera
         const Index n = s.rings.rows();
         if (tick) tick(1 - n / whole);
         Selection selection(s, options);
-        if (n > stop)
-            selection.run(rank_vertices(s, options.length_weight, options.seed), n - stop, steps.size() % 2 == 1);
+        if (n > stop) selection.run(rank_vertices(s, options), n - stop, steps.size() % 2 == 1);
         Step step;
         number(selection.parent(), selection.odd(), step);
         State t;

@@ -71,6 +71,7 @@ private:
     }
 
     double cost(Index v, Index u) const {
+        if (options_.split == Split::regression_plane) return collapse::sum_of_turns(v, u, ring(v), positions_);
         return collapse::cost(quadric_[v], quadric_[u].c, positions_[u] - positions_[v], options_.length_weight);
     }
 
@@ -79,7 +80,9 @@ private:
         const Directions directions(r);
         if (directions.none()) return;
         double least = -1;
-        for (Index j = 0; j < r.size; ++j)
+        if (options_.split == Split::regression_plane)
+            least = collapse::distance_from_ring(v, r, directions, positions_);
+        for (Index j = 0; j < r.size && options_.split == Split::quadric; ++j)
             if (directions.allows(j)) {
                 const double c = cost(v, r.vertex[j]);
                 if (least < 0 || c < least) least = c;

@@ -100,6 +100,7 @@ bool RowRelaxation::row(const Star& star, const Positions& positions, double* we
         return true;
     }
     geometry_.load(star, positions, options_.degenerate);
+    const kernels::Flaps flaps{star.flap, &positions, positions[star.vertex], options_.degenerate, flap_weight};
     bool found = false;
     switch (options_.op) {
     case Operator::cotangent:
@@ -114,11 +115,18 @@ bool RowRelaxation::row(const Star& star, const Positions& positions, double* we
     case Operator::second_difference:
         found = kernels::second_difference(geometry_, star.feature, nullptr, weight);
         break;
-    case Operator::second_difference_flaps: {
-        const kernels::Flaps flaps{star.flap, &positions, positions[star.vertex], options_.degenerate, flap_weight};
+    case Operator::second_difference_flaps:
         found = kernels::second_difference(geometry_, star.feature, &flaps, weight);
         break;
-    }
+    case Operator::natural_neighbours:
+        found = plane_.natural_neighbours(geometry_, weight);
+        break;
+    case Operator::thin_plate:
+        found = plane_.thin_plate(geometry_, star, nullptr, weight);
+        break;
+    case Operator::thin_plate_flaps:
+        found = plane_.thin_plate(geometry_, star, &flaps, weight);
+        break;
     case Operator::umbrella:
         break;  // done above
     }
@@ -142,13 +150,18 @@ bool RowRelaxation::accept(bool found, const Star& star, double* weight, double*
     return true;
 }
 
-RingWeights ring_weights(const Rings& rings, const Positions& positions, const RelaxationOptions& options) {
-    const bool flaps = uses_flaps(options.op);
-    if (flaps && rings.flap.size() != rings.neighbor.size())
+RingWeights unset_weights(const Rings& rings, Operator op) {
+    if (uses_flaps(op) && rings.flap.size() != rings.neighbor.size())
         throw std::invalid_argument("ring_weights: the rings have no flaps");
     RingWeights result;
     result.weight.resize(rings.neighbor.size());
-    if (flaps) result.flap_weight.resize(rings.neighbor.size());
+    if (uses_flaps(op)) result.flap_weight.resize(rings.neighbor.size());
+    return result;
+}
+
+RingWeights ring_weights(const Rings& rings, const Positions& positions, const RelaxationOptions& options) {
+    const bool flaps = uses_flaps(options.op);
+    RingWeights result = unset_weights(rings, options.op);
     result.fixed = for_rows(rings.rows(), options, [&](RowRelaxation& relaxation, Index r) {
         const Index at = rings.offset[r];
         return relaxation.row(star(rings, r), positions, result.weight.data() + at,

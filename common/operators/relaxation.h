@@ -1,6 +1,7 @@
 #pragma once
 
 #include "mesh/rings.h"
+#include "operators/plane_interpolation.h"
 #include "operators/row_sums.h"
 #include "operators/star.h"
 
@@ -25,11 +26,12 @@
 ///   the other operators a vertex with exactly two feature spokes is relaxed along the crease as if it were a
 ///   boundary; with one, or more than two, it is a corner and fixed. A link edge that is a feature is given by a flap
 ///   that is none (see Rings::flap).
-/// - Degenerate triangles, those with 2 area <= `degenerate` x (sum of squared edge lengths), are left out.
+/// - Degenerate triangles, those with 2 area <= `degenerate` x (sum of squared edge lengths), are left out; those that
+///   interpolate in a plane know no triangles.
 /// - Rows that would magnify rounding, sum_k |weight_k| > `largest_norm`, and closed rings of which nothing is left
-///   get the weights of cotangent_delaunay instead, or, if all triangles are degenerate, weights inverse to the edge
-///   lengths (neighbours that coincide with the vertex, if there are any, share the weight). If the vertex has feature
-///   spokes it is fixed.
+///   or that the operator is not made for (see kernels::PlaneInterpolation) get the weights of cotangent_delaunay
+///   instead, or, if all triangles are degenerate, weights inverse to the edge lengths (neighbours that coincide with
+///   the vertex, if there are any, share the weight). If the vertex has feature spokes it is fixed.
 namespace multires {
 
 /// The weight of neighbour j of vertex i, before each row is divided by its sum.
@@ -53,6 +55,16 @@ enum class Operator {
     /// The same over spokes and link edges (E2, "1-ring with flaps", Guskov's choice): the stencil includes the flap
     /// vertices. May be negative.
     second_difference_flaps,
+    /// Sibson's natural neighbour weights of the vertex's foot in the plane that fits its ring best (Szczesna 2011,
+    /// "NNI"): the prediction lies above the foot, so that details of positions are normal to the ring. In [0, 1] while
+    /// the foot is inside the ring's convex hull. Reproduces linear functions on planar meshes.
+    natural_neighbours,
+    /// The thin-plate spline over the ring in the same plane, at the foot (Szczesna's "TPS1"). Reproduces linear
+    /// functions on planar meshes. May be negative.
+    thin_plate,
+    /// The same over the ring and the flap vertices, the part of the second ring that Rings know (Szczesna's "TPS2"
+    /// takes all of it: on a regular mesh 6 vertices more). May be negative.
+    thin_plate_flaps,
 };
 
 /// How a relaxation is made.
@@ -69,7 +81,9 @@ struct RelaxationOptions {
 };
 
 /// True if the stencil is more than the 1-ring, so that the rings need Rings::flap.
-constexpr bool uses_flaps(Operator op) { return op == Operator::second_difference_flaps; }
+constexpr bool uses_flaps(Operator op) {
+    return op == Operator::second_difference_flaps || op == Operator::thin_plate_flaps;
+}
 
 /// Weights on the entries of some Rings and, for operators that use them, on their flaps.
 struct RingWeights {
@@ -78,9 +92,13 @@ struct RingWeights {
     std::vector<Index> fixed;   ///< ascending: the rows whose vertex keeps its value
 };
 
+/// Room for the weights of all rows, none of them made: RowRelaxation makes them one by one.
+/// @throws std::invalid_argument if the operator uses flaps and the rings have none (our bug, not the user's)
+RingWeights unset_weights(const Rings& rings, Operator op);
+
 /// The weights of an operator.
 /// @param positions  #V by 3, finite, indexed by the vertices that the rings name
-/// @throws std::invalid_argument if the operator uses flaps and the rings have none (our bug, not the user's)
+/// @throws std::invalid_argument  as unset_weights()
 /// Cost: O(entries), parallel over rows; the result does not depend on the number of threads.
 RingWeights ring_weights(const Rings& rings, const Positions& positions, const RelaxationOptions& options = {});
 
@@ -120,6 +138,7 @@ private:
     RelaxationOptions options_;
     double largest_cotangent_;  ///< of smallest_angle
     StarGeometry geometry_;
+    kernels::PlaneInterpolation plane_;
 };
 
 }  // namespace multires

@@ -74,9 +74,9 @@ std::vector<std::string> scheme_names();
 /// and dialogs all come from here: a new option is a field and a line of this function, which does not compile without.
 template <class Visit>
 void visit_options(PyramidOptions& o, const Visit& visit) {
-    auto& [row, op, presmooth, storage] = o.scheme;
+    auto& [row, op, presmooth, storage, update] = o.scheme;
     auto& [grouping, sets, set_share, memoryless, boundary_weight, level_ratio, base_vertices, normal_limit,
-           length_weight, seed, flaps, even_rings, mean_edges] = o.hierarchy;
+           length_weight, split, seed, flaps, even_rings, mean_edges] = o.hierarchy;
     auto& [features, feature_angle] = o.features;
     using Option = PyramidOption;
     const std::vector<std::string> names = scheme_names();
@@ -85,16 +85,26 @@ void visit_options(PyramidOptions& o, const Visit& visit) {
         Option{"operator",
                "Operator",
                "Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape "
-               "best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.",
+               "best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift; "
+               "natural neighbours and thin plates interpolate above the vertex's foot in the plane of its neighbours "
+               "(Szczesna).",
                0,
-               5,
+               8,
                {"umbrella", "cotangent", "cotangent clamped", "cotangent Delaunay", "second difference",
-                "second difference with flaps"}},
+                "second difference with flaps", "natural neighbours", "thin plate 1-ring", "thin plate 2-ring"}},
         op);
     visit(Option{"presmooth", "Presmoothing",
                  "Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine noise out of "
-                 "coarse levels; 0 is what the papers do."},
+                 "coarse levels; 0 is what the papers do. Only Roy and Guskov have it."},
           presmooth);
+    visit(Option{"update",
+                 "Update",
+                 "Szczesna's scheme only. Mean: before a vertex goes, its neighbours take over its share of the mean, "
+                 "so that coarse levels are means. None: coarse levels are subsets of the vertices, as in Lazy.",
+                 0,
+                 1,
+                 {"mean", "none"}},
+          update);
     visit(
         Option{"grouping",
                "Levels",
@@ -130,6 +140,15 @@ void visit_options(PyramidOptions& o, const Visit& visit) {
                  "surface bends, 1 keeps them evenly spaced.",
                  0, 1000},
           length_weight);
+    visit(Option{"split",
+                 "Order of vertices",
+                 "Which vertices go first, and where to. Quadric: those that change the surface least, spaced evenly. "
+                 "Regression plane: those nearest to the plane of their neighbours, into the neighbour that turns the "
+                 "faces least (Szczesna); flat parts empty first, and even spacing does not apply.",
+                 0,
+                 1,
+                 {"quadric", "regression plane"}},
+          split);
     visit(in_degrees(
               {"normal_limit", "Normal limit", "Degrees by which removing a vertex may turn a face at most.", 1, 180}),
           normal_limit);

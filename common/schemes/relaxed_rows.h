@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 /// What schemes that predict vertices by a relaxation operator have in common: weights as they are stored, loops over
@@ -16,8 +17,9 @@ namespace multires::relaxed_rows {
 class Stencil {
 public:
     Stencil(const Rings& rings, const Positions& positions, const SchemeOptions& options)
-        : rings_(&rings), weights_(ring_weights(rings, positions, relaxation(options.op))) {
-        if (options.storage != Storage::single) return;
+        : Stencil(rings, ring_weights(rings, positions, relaxation(options.op)), options.storage) {}
+    Stencil(const Rings& rings, RingWeights weights, Storage storage) : rings_(&rings), weights_(std::move(weights)) {
+        if (storage != Storage::single) return;
         narrow(weights_.weight, ring_single_);
         narrow(weights_.flap_weight, flap_single_);
     }

@@ -12,6 +12,12 @@ namespace multires {
 /// to predict, so inversion stays exact to rounding; float details invert to 6e-8 of their length.
 enum class Storage { wide, single };
 
+/// What a lifting scheme does to the vertices that stay before it predicts those that go.
+enum class Update {
+    mean,  ///< they take over what goes, so that means stay: coarse levels are means
+    none,  ///< nothing: coarse levels are subsets of the values
+};
+
 /// Details of one kind of vertices of one level: those that go, those that stay, ... Filters treat all subbands alike;
 /// what a scheme puts into which is its own business. Within a level they come in the same order on all levels.
 struct Subband {
@@ -67,6 +73,7 @@ struct SchemeOptions {
     /// place, in [0, 1]. 0: none, as in both papers; 1 keeps fine bands from aliasing into coarse ones.
     double presmooth = 0;
     Storage storage = Storage::wide;  ///< of weights
+    Update update = Update::mean;     ///< of schemes that have one
 };
 
 /// Splits any channels into a coarse part and details over a hierarchy, and puts them together again.

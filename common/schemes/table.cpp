@@ -4,15 +4,17 @@
 
 namespace multires {
 
-SchemeRow roy_scheme();     // burt_adelson.cpp
-SchemeRow guskov_scheme();  // burt_adelson.cpp
-SchemeRow lazy_scheme();    // lazy.cpp
+SchemeRow roy_scheme();       // burt_adelson.cpp
+SchemeRow guskov_scheme();    // burt_adelson.cpp
+SchemeRow lazy_scheme();      // lazy.cpp
+SchemeRow szczesna_scheme();  // szczesna.cpp
 
 const std::vector<SchemeRow>& schemes() {
     static const std::vector<SchemeRow> all{
         roy_scheme(),
         guskov_scheme(),
         lazy_scheme(),
+        szczesna_scheme(),
     };
     return all;
 }

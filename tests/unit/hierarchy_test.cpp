@@ -1,6 +1,10 @@
+#include "hierarchy/collapse.h"
 #include "hierarchy/hierarchy.h"
 
 #include "hierarchy_checks.h"
+#include "operator_fixtures.h"
+
+#include <numeric>
 
 namespace multires {
 
@@ -48,6 +52,7 @@ TEST_P(EveryHierarchy, KeepsRingsTopologyAndNormalsOfRandomMeshes) {
         const Mesh mesh = soup ? random_soup(seed) : damaged_mesh(seed);
         options.normal_limit_degrees = seed % 3 == 0 ? 180 : 60;
         options.length_weight = seed % 5 == 0 ? 0 : 0.1;
+        options.split = seed % 4 < 2 ? Split::quadric : Split::regression_plane;
         expect_hierarchy(hierarchy_of(mesh, options), mesh, options, soup ? 1 : 17);
         if (HasFailure()) return;
     }
@@ -58,6 +63,7 @@ TEST_P(EveryHierarchy, KeepsTopologyWithFeatures) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         SCOPED_TRACE("damaged_mesh(" + std::to_string(seed) + "), " + grouping);
         const Mesh mesh = damaged_mesh(seed);
+        options.split = seed % 4 < 2 ? Split::quadric : Split::regression_plane;
         const Hierarchy h = hierarchy_of(mesh, options, 25);
         expect_numbering(h, mesh, options);
         expect_topology(h, mesh, 17);
@@ -67,6 +73,36 @@ TEST_P(EveryHierarchy, KeepsTopologyWithFeatures) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Groupings, EveryHierarchy, testing::Range(0, 4));
+
+TEST(Hierarchy, RegressionPlaneEmptiesFlatPartsFirst) {
+    const Mesh mesh = shapes::block(16);
+    const Rings rings = vertex_rings(mesh);
+    std::vector<std::uint8_t> bent(mesh.positions.size());
+    for (Index v = 0; v < rings.rows(); ++v) {
+        const collapse::Ring ring = collapse::ring_of(rings, v);
+        bent[v] = collapse::distance_from_ring(v, ring, collapse::Directions(ring), mesh.positions) > 1e-6;
+    }
+    const auto all = std::accumulate(bent.begin(), bent.end(), 0);
+    ASSERT_LT(all, static_cast<int>(bent.size()) / 3);
+    HierarchyOptions options;
+    options.grouping = Grouping::sequential;
+    options.split = Split::regression_plane;
+    const Hierarchy h = hierarchy_of(mesh, options);
+    int kept = 0;
+    for (Index p = 0; p < all; ++p) kept += bent[h.order[p]];
+    EXPECT_GT(kept, 0.9 * all) << "of " << all;
+}
+
+TEST(Hierarchy, RegressionPlaneTurnsFacesLeast) {
+    // A ridge along x through the vertex 0: along it no face turns, across it all do.
+    const ClosedStar star({{0, 0, 1}, {1, 0, 1}, {0.5, 1, 0}, {-0.5, 1, 0}, {-1, 0, 1}, {-0.5, -1, 0}, {0.5, -1, 0}});
+    const collapse::Ring ring = collapse::ring_of(star.rings, 0);
+    EXPECT_NEAR(collapse::sum_of_turns(0, 1, ring, star.positions), 0, 1e-15);
+    EXPECT_NEAR(collapse::sum_of_turns(0, 4, ring, star.positions), 0, 1e-15);
+    for (const Index u : {2, 3, 5, 6}) EXPECT_GT(collapse::sum_of_turns(0, u, ring, star.positions), 0.1);
+    const collapse::Directions directions(ring);
+    EXPECT_NEAR(collapse::distance_from_ring(0, ring, directions, star.positions), 2.0 / 3, 1e-12);
+}
 
 TEST(Hierarchy, LevelZeroIsTheInput) {
     for (const auto& [name, mesh] : every_class()) {

@@ -13,11 +13,14 @@
 /// What the tests of the relaxation operators share.
 namespace multires::fixtures {
 
-inline constexpr Operator all_operators[] = {Operator::umbrella,          Operator::cotangent,
-                                             Operator::cotangent_clamped, Operator::cotangent_delaunay,
-                                             Operator::second_difference, Operator::second_difference_flaps};
-inline constexpr Operator linear_precise[] = {Operator::cotangent, Operator::cotangent_delaunay,
-                                              Operator::second_difference, Operator::second_difference_flaps};
+inline constexpr Operator all_operators[] = {
+    Operator::umbrella,           Operator::cotangent,         Operator::cotangent_clamped,
+    Operator::cotangent_delaunay, Operator::second_difference, Operator::second_difference_flaps,
+    Operator::natural_neighbours, Operator::thin_plate,        Operator::thin_plate_flaps};
+inline constexpr Operator linear_precise[] = {Operator::cotangent,          Operator::cotangent_delaunay,
+                                              Operator::second_difference,  Operator::second_difference_flaps,
+                                              Operator::natural_neighbours, Operator::thin_plate,
+                                              Operator::thin_plate_flaps};
 
 inline RelaxationOptions with(Operator op) {
     RelaxationOptions options;

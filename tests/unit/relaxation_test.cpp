@@ -150,8 +150,8 @@ TEST(Relaxation, RelaxedKeepsTheValuesOfFixedRows) {
 TEST(Relaxation, CreasesAndCorners) {
     // Neighbours of vertex 0 at distances 1 and 2 along the crease, and two more.
     ClosedStar star({{0, 0, 0}, {1, 0, 0}, {0, 1, -1}, {-2, 0, 0}, {0, -1, -1}});
-    for (const Operator op :
-         {Operator::umbrella, Operator::cotangent, Operator::cotangent_clamped, Operator::cotangent_delaunay}) {
+    for (const Operator op : {Operator::umbrella, Operator::cotangent, Operator::cotangent_clamped,
+                              Operator::cotangent_delaunay, Operator::natural_neighbours, Operator::thin_plate}) {
         star.rings.feature = {1, 0, 1, 0};
         EXPECT_EQ(star.weights(op), (Array<double>{2.0 / 3, 0, 1.0 / 3, 0}));
         for (const Array<std::uint8_t>& corner : {Array<std::uint8_t>{1, 0, 0, 0}, {1, 1, 1, 0}}) {
@@ -182,7 +182,7 @@ TEST(Relaxation, StarsOfDegenerateTrianglesFallBackOnLengths) {
     const ClosedStar line({{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {4, 0, 0}});
     const ClosedStar point({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}, {4, 0, 0}});
     for (const Operator op : {Operator::cotangent, Operator::cotangent_clamped, Operator::cotangent_delaunay,
-                              Operator::second_difference}) {
+                              Operator::second_difference, Operator::natural_neighbours, Operator::thin_plate}) {
         const std::vector<double> inverse{4.0 / 7, 2.0 / 7, 1.0 / 7};
         const Array<double> w = line.weights(op);
         for (int k = 0; k < 3; ++k) EXPECT_NEAR(w[k], inverse[k], 1e-15);
