@@ -11,20 +11,22 @@ __all__ = [
     "FalloffToQualityReport", "Features", "FilterAttributesReport", "FilterCustomAttributesReport",
     "GenerateTexcoordReport", "Grouping", "LIMITS", "LevelAsLayerReport", "LowPassReport", "Mode", "MoveRegionReport",
     "Movement", "Operator", "Order", "Pyramid", "PyramidUse", "RelativeTo", "RelaxAttributesReport", "Result",
-    "RoughnessReport", "Scheme", "SmoothBaseAsLayerReport", "StopBandReport", "Storage", "TransferEditReport",
-    "UnsharpReport", "adaptive_reconstruction", "build_pyramid", "denoise", "denoise_attributes", "detail_to_quality",
-    "difference_to_layer", "enhance", "equalizer", "falloff_to_quality", "filter_attributes",
+    "RoughnessReport", "Scheme", "SmoothBaseAsLayerReport", "Split", "StopBandReport", "Storage", "TransferEditReport",
+    "UnsharpReport", "Update", "adaptive_reconstruction", "build_pyramid", "denoise", "denoise_attributes",
+    "detail_to_quality", "difference_to_layer", "enhance", "equalizer", "falloff_to_quality", "filter_attributes",
     "filter_custom_attributes", "generate_texcoord", "level_as_layer", "low_pass", "move_region", "relax_attributes",
     "roughness", "smooth_base_as_layer", "stop_band", "transfer_edit", "unsharp",
 ]
 
-Scheme: TypeAlias = Literal["Roy", "Guskov", "Lazy"]
+Scheme: TypeAlias = Literal["Roy", "Guskov", "Lazy", "Szczesna"]
 Operator: TypeAlias = Literal[
     "umbrella", "cotangent", "cotangent clamped", "cotangent Delaunay", "second difference",
-    "second difference with flaps",
+    "second difference with flaps", "natural neighbours", "thin plate 1-ring", "thin plate 2-ring",
 ]
+Update: TypeAlias = Literal["mean", "none"]
 Grouping: TypeAlias = Literal["independent sets", "sequential"]
 Storage: TypeAlias = Literal["double", "float"]
+Split: TypeAlias = Literal["quadric", "regression plane"]
 Features: TypeAlias = Literal["none", "by angle", "edges not faux", "selected edges"]
 Order: TypeAlias = Literal["1", "2", "4", "gaussian"]
 RelativeTo: TypeAlias = Literal["current shape", "original"]
@@ -40,12 +42,17 @@ class Pyramid:
     Args:
         scheme: Roy: details in world axes. Guskov: details turn with the coarser surface, so that fine structure
             follows when coarse structure is changed. Lazy: vertices that stay keep their values and have no details:
-            the least memory and time, but fine noise comes back in coarse levels. Default: Guskov.
+            the least memory and time, but fine noise comes back in coarse levels. Szczesna: lifting that hands the mean
+            of what goes to what stays: no more details than vertices, in world axes, and coarse levels that are means.
+            Default: Guskov.
         operator: Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
-            Default: second difference with flaps.
+            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift;
+            natural neighbours and thin plates interpolate above the vertex's foot in the plane of its neighbours
+            (Szczesna). Default: second difference with flaps.
         presmooth: Share of a relaxation step taken before vertices are removed, 0 to 1. It keeps fine noise out of
-            coarse levels; 0 is what the papers do. A number, 0 to 1. Default: 0.5.
+            coarse levels; 0 is what the papers do. Only Roy and Guskov have it. A number, 0 to 1. Default: 0.5.
+        update: Szczesna's scheme only. Mean: before a vertex goes, its neighbours take over its share of the mean, so
+            that coarse levels are means. None: coarse levels are subsets of the vertices, as in Lazy. Default: mean.
         grouping: Independent sets: each level removes sets of vertices that are not neighbours, about a quarter of the
             vertices a set (Roy). Sequential: one vertex after the other, cheapest first (Guskov). Default: independent
             sets.
@@ -58,6 +65,9 @@ class Pyramid:
         base_vertices: Vertices at which the pyramid stops. A whole number, at least 4. Default: 100.
         length_weight: Weight of edge length against the quadric error when vertices are chosen: 0 keeps vertices where
             the surface bends, 1 keeps them evenly spaced. A number, 0 to 1000. Default: 0.1.
+        split: Which vertices go first, and where to. Quadric: those that change the surface least, spaced evenly.
+            Regression plane: those nearest to the plane of their neighbours, into the neighbour that turns the faces
+            least (Szczesna); flat parts empty first, and even spacing does not apply. Default: quadric.
         normal_limit: Degrees by which removing a vertex may turn a face at most. A number, 1 to 180. Default: 60.
         features: Edges that are not smoothed across: none; those where the normals of the two faces differ by more than
             the feature angle; those not marked as faux; those selected on their faces. Default: none.
@@ -68,12 +78,14 @@ class Pyramid:
     scheme: Scheme | None = None
     operator: Operator | None = None
     presmooth: float | None = None
+    update: Update | None = None
     grouping: Grouping | None = None
     storage: Storage | None = None
     sets_per_level: int | None = None
     level_ratio: float | None = None
     base_vertices: int | None = None
     length_weight: float | None = None
+    split: Split | None = None
     normal_limit: float | None = None
     features: Features | None = None
     feature_angle: float | None = None
@@ -937,7 +949,9 @@ def unsharp(
             to 10.
         iterations: More steps reach coarser structure; each costs the same. A whole number, 1 to 10000.
         operator: Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift;
+            natural neighbours and thin plates interpolate above the vertex's foot in the plane of its neighbours
+            (Szczesna).
         selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
             derived from the mesh.
         quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
@@ -1455,7 +1469,9 @@ def adaptive_reconstruction(
         finest: Fine limit of the band: wavelength in mesh units. A number, at least 0. None: derived from the mesh.
         coarsest: Coarse limit of the band: wavelength in mesh units. A number, at least 0. None: derived from the mesh.
         operator: Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape
-            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift.
+            best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift;
+            natural neighbours and thin plates interpolate above the vertex's foot in the plane of its neighbours
+            (Szczesna).
         base_vertices: Vertices of the base mesh. A whole number, at least 4.
         normal_limit: Degrees by which removing a vertex may turn a face at most. A number, 1 to 180.
         features: Edges that are not smoothed across: none; those where the normals of the two faces differ by more than
