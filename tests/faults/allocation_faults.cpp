@@ -6,18 +6,15 @@
 #include <limits>
 #include <new>
 
-#include <sys/mman.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
 // Nothing here may allocate.
 
 namespace multires::faults {
 namespace {
 
 constexpr long never = std::numeric_limits<long>::max();
+constexpr std::size_t large = std::size_t{4} << 20;
 
-std::atomic<bool> armed{false}, mapped_only{false};
+std::atomic<bool> armed{false}, large_only{false};
 std::atomic<long> allocations{0};
 std::atomic<long> failing{never};
 std::atomic<bool> lasting{false};
@@ -25,7 +22,7 @@ std::atomic<bool> lasting{false};
 }  // namespace
 
 void fail_at(long index, Shortage shortage, Memory memory) {
-    mapped_only = memory == Memory::mapped;
+    large_only = memory == Memory::large;
     allocations = 0;
     failing = index;
     lasting = shortage == Shortage::lasting;
@@ -40,27 +37,18 @@ long stop() {
 }
 
 /// Counts an allocation; true if it is to fail.
-bool fails(bool mapped = false) noexcept {
-    if (!armed.load(std::memory_order_relaxed) || (mapped_only && !mapped)) return false;
+bool fails(std::size_t size) noexcept {
+    if (!armed.load(std::memory_order_relaxed) || (large_only && size < large)) return false;
     const long index = allocations.fetch_add(1);
     return lasting ? index >= failing : index == failing;
 }
 
 }  // namespace multires::faults
 
-// glibc's own calls, malloc's among them, do not come here.
-extern "C" __attribute__((visibility("default"))) void* mmap(void* address, std::size_t size, int protection, int flags,
-                                                             int file, off_t offset) noexcept {
-    if (!multires::faults::fails(true))
-        return reinterpret_cast<void*>(syscall(SYS_mmap, address, size, protection, flags, file, offset));
-    errno = ENOMEM;
-    return MAP_FAILED;
-}
-
 #ifdef MULTIRES_SANITIZED
 
 void* operator new(std::size_t size) {
-    if (multires::faults::fails()) throw std::bad_alloc();
+    if (multires::faults::fails(size)) throw std::bad_alloc();
     if (void* p = std::malloc(size ? size : 1)) return p;
     throw std::bad_alloc();
 }
@@ -77,27 +65,27 @@ void* __libc_realloc(void* p, std::size_t size);
 void* __libc_memalign(std::size_t alignment, std::size_t size);
 
 __attribute__((visibility("default"))) void* malloc(std::size_t size) noexcept {
-    if (!multires::faults::fails()) return __libc_malloc(size);
+    if (!multires::faults::fails(size)) return __libc_malloc(size);
     errno = ENOMEM;
     return nullptr;
 }
 __attribute__((visibility("default"))) void* calloc(std::size_t count, std::size_t size) noexcept {
-    if (!multires::faults::fails()) return __libc_calloc(count, size);
+    if (!multires::faults::fails(count * size)) return __libc_calloc(count, size);
     errno = ENOMEM;
     return nullptr;
 }
 __attribute__((visibility("default"))) void* realloc(void* p, std::size_t size) noexcept {
-    if (!multires::faults::fails()) return __libc_realloc(p, size);
+    if (!multires::faults::fails(size)) return __libc_realloc(p, size);
     errno = ENOMEM;
     return nullptr;
 }
 __attribute__((visibility("default"))) void* aligned_alloc(std::size_t alignment, std::size_t size) noexcept {
-    if (!multires::faults::fails()) return __libc_memalign(alignment, size);
+    if (!multires::faults::fails(size)) return __libc_memalign(alignment, size);
     errno = ENOMEM;
     return nullptr;
 }
 __attribute__((visibility("default"))) int posix_memalign(void** p, std::size_t alignment, std::size_t size) noexcept {
-    if (multires::faults::fails()) return ENOMEM;
+    if (multires::faults::fails(size)) return ENOMEM;
     *p = __libc_memalign(alignment, size);
     return *p ? 0 : ENOMEM;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Makes memory run out on purpose. Linked into a test program, it stands in for mmap, malloc and its kin in the whole
+/// Makes memory run out on purpose. Linked into a test program, it stands in for malloc and its kin in the whole
 /// process, libraries included; in a program built with sanitizers, which have a malloc of their own, for operator new.
 namespace multires::faults {
 
@@ -11,7 +11,7 @@ enum class Shortage {
 
 enum class Memory {
     all,
-    mapped  ///< by mmap, as large arrays are; other allocations are not counted and do not fail
+    large  ///< 4 megabytes and more; other allocations are not counted and do not fail
 };
 
 /// From now on, in any thread, allocation number `index` (from 0) fails.

@@ -80,7 +80,7 @@ protected:
 TEST(ArrayFaults, NoMemoryForALargeArrayIsAnErrorAndTheNextOneWorks) {
     constexpr std::size_t large = 5 << 20;
     Array<char> kept(large, 'a'), after;
-    faults::fail_at(0, Shortage::once, faults::Memory::mapped);
+    faults::fail_at(0, Shortage::once, faults::Memory::large);
     EXPECT_THROW(kept.resize(2 * large), std::bad_alloc);
     EXPECT_NO_THROW(after.resize(2 * large));
     EXPECT_EQ(faults::stop(), 2);

@@ -47,7 +47,7 @@ protected:
     /// Lets every allocation fail in turn; for large documents, some of the large ones.
     void starve(Shortage shortage, Content content = Content::everything) {
         const bool large = content == Content::large;
-        const Memory memory = large ? Memory::mapped : Memory::all;
+        const Memory memory = large ? Memory::large : Memory::all;
         auto c = std::make_unique<Case>(GetParam(), content);
         faults::count(memory);
         c->run();
@@ -108,7 +108,6 @@ TEST_P(DocumentFaults, NoMemoryLeavesADocumentWithoutData) {
 
 TEST_P(DocumentFaults, NoMemoryFromAnyAllocationOnLeavesTheDocument) { starve(Shortage::lasting); }
 
-// Lasting, for after one failure freed blocks are given back and it is tried again.
 TEST_P(DocumentFaults, NoMemoryForLargeArraysLeavesTheDocument) { starve(Shortage::lasting, Content::large); }
 
 TEST_P(DocumentFaults, StoppingAtAnyReportLeavesTheDocument) {

@@ -41,13 +41,13 @@ struct TransferEditOptions {
 /// 3. Otherwise the nearest level of the pyramid, wrapped onto `edited` (editing/wrap.h).
 ///
 /// Layers are compared where the document shows them; a layer that was moved as a whole was edited. An edit that
-/// changes nothing leaves the layer as it is, bit for bit. So does any edit with all vertices out of its reach.
+/// changes nothing leaves the layer as it is, bit for bit. So does any edit with all vertices out of its reach. Vertices
+/// without faces follow as well.
 ///
 /// Reports the way, how far the layer is from the proxy, faces that are folded against their neighbourhood's motion,
 /// and the change.
 /// @throws InputError  naming the layer, for layers that are not usable, do not fit together or lie elsewhere; for
-/// options
-///                     out of range
+///                     options out of range
 /// Cost: linear, O(log #F) of the proxy a vertex.
 Result transfer_edit(const Inputs& inputs, const TransferEditOptions& options, Session& session);
 
