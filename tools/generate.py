@@ -96,11 +96,15 @@ def reference(rows):
 # ---- .mlx examples ---------------------------------------------------------------------------------------------------
 
 RICH = {"boolean": "RichBool", "integer": "RichInt", "real": "RichFloat", "slider": "RichDynamicFloat",
-        "angle": "RichFloat", "choice": "RichEnum", "text": "RichString", "layer": "RichMesh"}  # fmt: skip
+        "angle": "RichFloat", "choice": "RichEnum", "text": "RichString", "layer": "RichMesh",
+        "point": "RichPoint3f", "direction": "RichPoint3f"}  # fmt: skip
 
 
 def param(p, value):
     """The XML of one parameter."""
+    if p["type"] in ("point", "direction"):
+        x, y, z = map(number, value)
+        return ET.Element("Param", type=RICH[p["type"]], name=p["name"], x=x, y=y, z=z)
     if p["type"] == "choice" and isinstance(value, str):
         value = p["names"].index(value)
     if p["type"] == "layer":  # by its position in MeshLab 2020.09, by its id later: the first one, unless told

@@ -10,10 +10,11 @@ from meshlab_program import LATER_GUI, display, gui, run, tree  # noqa: F401  fi
 from PIL import Image
 
 NAMES = {f["python_name"]: f["name"] for f in FILTERS}
-MOVING = [name for name in FILTER_IDS if name.startswith("apply_coord")]
+NEED_MORE = ["apply_coord_multires_transfer_edit", "apply_coord_multires_displace"]  # a second layer; a selection
+MOVING = [name for name in FILTER_IDS if name.startswith("apply_coord") and name not in NEED_MORE]
 # What MeshLab puts back when a preview ends: positions, colours and quality; not layers, texture coordinates, custom data.
-PREVIEWED = [*MOVING, "compute_scalar_multires_detail_per_vertex", "compute_scalar_multires_difference_per_vertex",
-             "apply_attributes_multires_band"]  # fmt: skip
+QUALITY = [name for name in FILTER_IDS if name.startswith("compute_scalar")]
+PREVIEWED = [*MOVING, *NEED_MORE, *QUALITY, "apply_attributes_multires_band"]
 
 # What brings the mesh back. From 2022.02 on, closing the dialog leaves what is previewed.
 CANCEL = [("press", "Preview"), ("press", "Close")] if LATER_GUI else [("press", "Close")]

@@ -21,7 +21,7 @@ def script(path, *filters):
     if two are missing."""
     root = ET.Element("FilterScript")
     for name, parameters in filters:
-        ET.SubElement(root, "filter", name=name).extend(generate.param(p, p["value"]) for p in parameters)
+        ET.SubElement(root, "filter", name=name).extend([generate.param(p, p["value"]) for p in parameters])
     path.write_text("<!DOCTYPE FilterScript>\n" + ET.tostring(root, encoding="unicode"))
     return path
 
