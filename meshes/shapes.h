@@ -97,6 +97,24 @@ Terrain terrain(Index n, const Irregular& options = {});
 /// nearest number 10 n^2 + 2, up to 100 million). The bumps' amplitudes fall with their wavelengths, down to 4 edges.
 Mesh scan(Index vertices, const Irregular& options = {});
 
+/// A curved stone with letters cut into it, as an open patch that faces up, in millimetres: x to the right along the
+/// lines, twice as wide as high.
+struct EngravedStone {
+    Mesh mesh;
+    std::vector<double> cut;  ///< #V: depth of the letters at each vertex, mm, 0 beside them
+};
+
+struct EngravedStoneOptions {
+    double width = 120, spacing = 0.4;
+    double depth = 0.3, stroke = 2;  ///< of the letters: V-shaped, width at the surface
+    double chisel = 0.06;            ///< amplitude of furrows of 2.5 to 5 mm
+    double noise = 0.03;             ///< standard deviation, along z
+    Irregular irregular = {};        ///< its seed does not count
+    std::uint64_t seed = 1;          ///< of the stone's form (radii from 60 to 400, bumps of 25 to 80), furrows, noise
+};
+
+EngravedStone engraved_stone(const EngravedStoneOptions& options = {});
+
 // ---- Joining
 // ---------------------------------------------------------------------------------------------------------
 

@@ -109,6 +109,11 @@ def painted(title, words, ms):
     return Panel(title, words, *arrays(ms.current_mesh()), ms.current_mesh().vertex_color_matrix()[:, :3])
 
 
+def selected(title, words, ms):
+    chosen = ms.current_mesh().vertex_selection_array()[:, None]
+    return Panel(title, words, *arrays(ms.current_mesh()), np.where(chosen, [0.8, 0.1, 0.1], [0.87, 0.85, 0.8]))
+
+
 def meshed(title, words, ms):
     return Panel(
         title, f"{ms.current_mesh().vertex_number():,} vertices{words}", *arrays(ms.current_mesh()), edges=True
@@ -155,6 +160,9 @@ PAIRS = {
         "1 to 6 % of the box, signed",
     ),
     "compute_multires_roughness": None,  # heights()
+    "compute_scalar_multires_relief_per_vertex": None,  # stone()
+    "compute_custom_multires_scales": (document, shaded, "", {"bands": 12}, quality, "wavelength that stands out, of 12 bands"),
+    "compute_selection_multires_features": (document, shaded, "", {"select": "vertices"}, selected, "lines of 30 degrees"),
     "compute_scalar_multires_difference_per_vertex": (
         warped,
         shaded,
@@ -318,6 +326,23 @@ def heights(v, f, path):
     path.with_suffix(".png").unlink()
 
 
+def stone(path):
+    """A synthetic stone as it looks in slanting light, its letters, and its relief."""
+    from relief_compare import stone as carved
+
+    v, f, letter = carved(11)
+    ms = document(v, f)
+    ms.apply_filter("compute_scalar_multires_relief_per_vertex", color=True)
+    panels = [
+        Panel("Stone", "letters 0.3 mm deep, chisel, noise", v, f),
+        Panel("Letters", "the truth", v, f, np.where(letter[:, None], [0.16, 0.28, 0.6], [0.87, 0.87, 0.87])),
+        painted("Relief", "no parameter given", ms),
+    ]
+    centre = (v.min(axis=0) + v.max(axis=0)) / 2
+    camera = rendering.Camera(*np.eye(3), centre, np.ptp(v[:, 0]) / 2)
+    rendering.contact_sheet(panels, camera, 420, close_ups=False).save(path, "WEBP", quality=82, method=6)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--only", nargs="*", help="names of filters, or top")
@@ -329,6 +354,9 @@ def main():
     for name in arguments.only or ["top", *PAIRS]:
         if name == "compute_multires_roughness":
             heights(v, f, arguments.output / "roughness.webp")
+            continue
+        if name == "compute_scalar_multires_relief_per_vertex":
+            stone(arguments.output / "relief.webp")
             continue
         panels = top(v, f) if name == "top" else levels(v, f) if PAIRS[name] is None else pair(name, v, f)
         camera = rendering.three_quarter_camera(v, f)

@@ -19,9 +19,12 @@ namespace multires {
 struct Result {
     std::optional<Positions> positions;          ///< #V by 3
     std::optional<std::vector<double>> quality;  ///< #V, becomes the vertex quality
-    std::vector<Attribute> attributes;           ///< new values of attributes given in the layer
-    std::optional<std::vector<Wedge>> wedges;    ///< 3 #F, new texture coordinates of the faces' corners
-    std::optional<DerivedMesh> layer;            ///< becomes a new layer of the document
+    /// New values of attributes given in the layer; scalars and points that the mesh does not have yet are made.
+    std::vector<Attribute> attributes;
+    std::optional<std::vector<Wedge>> wedges;                  ///< 3 #F, new texture coordinates of the faces' corners
+    std::optional<std::vector<std::uint8_t>> selected_vertex;  ///< #V, 0 or 1, becomes the vertex selection
+    std::optional<std::vector<std::uint8_t>> selected_edges;   ///< #F, as in Layer, becomes the edge selection
+    std::optional<DerivedMesh> layer;                          ///< becomes a new layer of the document
     Report report;
 };
 

@@ -12,6 +12,8 @@ double result_hash(const Result& result) {
     for (const Attribute& a : result.attributes) hash.add(a.values);
     if (result.wedges)
         for (const Wedge& w : *result.wedges) hash.add(std::array{w.u, w.v, static_cast<double>(w.texture)});
+    if (result.selected_vertex) hash.add(*result.selected_vertex);
+    if (result.selected_edges) hash.add(*result.selected_edges);
     if (result.layer) {
         hash.add(result.layer->source_vertex);
         hash.add(result.layer->faces);

@@ -28,10 +28,12 @@ struct VcgLayer {
 
 /// New values for a mesh; null parts stay as they are. All by vertex of the VcgLayer they were computed from.
 struct LayerChanges {
-    const Positions* positions = nullptr;                ///< #V by 3, finite
-    const std::vector<double>* quality = nullptr;        ///< #V, becomes the vertex quality
-    const std::vector<Attribute>* attributes = nullptr;  ///< kinds and names as to_layer gave them
-    const std::vector<Wedge>* wedges = nullptr;          ///< 3 #F, with the indices of their textures
+    const Positions* positions = nullptr;                        ///< #V by 3, finite
+    const std::vector<double>* quality = nullptr;                ///< #V, becomes the vertex quality
+    const std::vector<Attribute>* attributes = nullptr;          ///< kinds and names as to_layer gave them
+    const std::vector<Wedge>* wedges = nullptr;                  ///< 3 #F, with the indices of their textures
+    const std::vector<std::uint8_t>* selected_vertex = nullptr;  ///< #V, 0 or 1
+    const std::vector<std::uint8_t>* selected_edges = nullptr;   ///< #F, as in Layer
 };
 
 /// Names of the custom per-vertex attributes that to_layer can give: float, double, Point3f and Point3d ones.
@@ -44,6 +46,15 @@ std::vector<std::string> custom_attribute_names(const M& mesh);
 /// Cost: linear.
 template <class M>
 VcgLayer to_layer(const M& mesh, const AttributeRequest& request = {});
+
+/// Makes the custom scalars and points among `attributes` that the mesh does not have, in its own scalar type.
+/// @return  their names, for remove_custom_attributes(); if it throws, nothing was made
+/// @throws InputError  if the mesh has one of another type by that name
+template <class M>
+std::vector<std::string> make_custom_attributes(M& mesh, const std::vector<Attribute>& attributes);
+
+template <class M>
+void remove_custom_attributes(M& mesh, const std::vector<std::string>& names) noexcept;
 
 /// Checks that `changes` can be written to `mesh`: write() then cannot fail.
 /// @throws InputError             for positions that are not finite in the mesh's precision
@@ -164,6 +175,16 @@ void copy_attributes(const M& mesh, const AttributeRequest& request, VcgLayer& o
     }
 }
 
+inline bool is_custom(const Attribute& a) { return a.kind == AttributeKind::scalar || a.kind == AttributeKind::point; }
+
+/// How many numbers a vertex has in a custom attribute; 0 if that is of a type that is no use to a layer.
+template <class M>
+int custom_width(const vcg::PointerToAttribute& custom) {
+    int found = 0;
+    visit<typename M::VertContainer>(custom, LayerTypes(), [&](auto& data) { found = width<ValueOf<decltype(data)>>; });
+    return found;
+}
+
 /// Throws unless the positions are finite in the precision they are to be written in.
 template <class Scalar>
 void require_finite_as(const Positions& positions) {
@@ -201,11 +222,7 @@ void check_attribute(const M& mesh, const VcgLayer& flat, const Attribute& a) {
         break;
     }
     const auto* custom = find_custom(mesh, a.name);
-    int expected = 0;
-    if (custom)
-        visit<typename M::VertContainer>(*custom, LayerTypes(),
-                                         [&](auto& data) { expected = width<ValueOf<decltype(data)>>; });
-    require(a.width == expected, "no such custom attribute");
+    require(custom && a.width == custom_width<M>(*custom), "no such custom attribute");
 }
 
 template <class M>
@@ -218,6 +235,21 @@ void write_wedges(M& mesh, const VcgLayer& flat, const std::vector<Wedge>& wedge
             t.V() = static_cast<std::decay_t<decltype(t.V())>>(w->v);
             t.N() = static_cast<std::decay_t<decltype(t.N())>>(w->texture);
         }
+}
+
+template <class M>
+void write_selections(M& mesh, const VcgLayer& flat, const LayerChanges& changes) noexcept {
+    if (changes.selected_vertex)
+        for (std::size_t i = 0; i < flat.host_vertex.size(); ++i) {
+            auto& v = mesh.vert[flat.host_vertex[i]];
+            (*changes.selected_vertex)[i] ? v.SetS() : v.ClearS();
+        }
+    if (changes.selected_edges)
+        for (std::size_t i = 0; i < flat.host_face.size(); ++i)
+            for (int k = 0; k < 3; ++k) {
+                auto& f = mesh.face[flat.host_face[i]];
+                (*changes.selected_edges)[i] >> k & 1 ? f.SetFaceEdgeS(k) : f.ClearFaceEdgeS(k);
+            }
 }
 
 template <class M>
@@ -284,6 +316,45 @@ VcgLayer to_layer(const M& mesh, const AttributeRequest& request) {
 }
 
 template <class M>
+std::vector<std::string> make_custom_attributes(M& mesh, const std::vector<Attribute>& attributes) {
+    using Scalar = typename M::ScalarType;
+    std::vector<std::string> names, made;
+    for (const Attribute& a : attributes) {
+        if (!vcg_detail::is_custom(a)) continue;
+        const auto* custom = vcg_detail::find_custom(mesh, a.name);
+        if (custom && vcg_detail::custom_width<M>(*custom) != a.width)
+            throw InputError("The mesh has a custom attribute \"" + a.name + "\" of another type: choose another one.");
+        if (!custom) names.push_back(a.name);
+    }
+    made.reserve(names.size());
+    try {
+        for (const Attribute& a : attributes) {
+            if (!vcg_detail::is_custom(a) || vcg_detail::find_custom(mesh, a.name)) continue;
+            if (a.kind == AttributeKind::scalar)
+                vcg::tri::Allocator<M>::template AddPerVertexAttribute<Scalar>(mesh, a.name);
+            else
+                vcg::tri::Allocator<M>::template AddPerVertexAttribute<vcg::Point3<Scalar>>(mesh, a.name);
+            made.push_back(std::move(names[made.size()]));  // needs no memory
+        }
+    } catch (...) {
+        remove_custom_attributes(mesh, made);
+        throw;
+    }
+    return made;
+}
+
+template <class M>
+void remove_custom_attributes(M& mesh, const std::vector<std::string>& names) noexcept {
+    for (const std::string& name : names)  // not by vcg's own function, which allocates
+        for (auto at = mesh.vert_attr.begin(); at != mesh.vert_attr.end(); ++at)
+            if (at->_name == name) {
+                delete static_cast<vcg::SimpleTempDataBase*>(at->_handle);
+                mesh.vert_attr.erase(at);
+                break;
+            }
+}
+
+template <class M>
 void check_changes(const M& mesh, const VcgLayer& flat, const LayerChanges& changes) {
     using vcg_detail::require;
     const std::size_t n = flat.host_vertex.size();
@@ -302,6 +373,9 @@ void check_changes(const M& mesh, const VcgLayer& flat, const LayerChanges& chan
     if (changes.wedges)
         require(changes.wedges->size() == 3 * flat.host_face.size() && vcg::tri::HasPerWedgeTexCoord(mesh),
                 "wedge texture coordinates of wrong size");
+    require(!changes.selected_vertex || changes.selected_vertex->size() == n, "vertex selection of wrong size");
+    require(!changes.selected_edges || changes.selected_edges->size() == flat.host_face.size(),
+            "edge selection of wrong size");
 }
 
 template <class M>
@@ -317,6 +391,7 @@ void write(M& mesh, const VcgLayer& flat, const LayerChanges& changes) {
     if (changes.attributes)
         for (const Attribute& a : *changes.attributes) vcg_detail::write_attribute(mesh, flat, a);
     if (changes.wedges) vcg_detail::write_wedges(mesh, flat, *changes.wedges);
+    vcg_detail::write_selections(mesh, flat, changes);
 }
 
 }  // namespace multires

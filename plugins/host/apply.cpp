@@ -145,9 +145,12 @@ int postcondition(const Filter& filter) {
         bits(plugin::faces, MeshModel::MM_FACENUMBER | MeshModel::MM_VERTNUMBER) |
         bits(plugin::vertex_quality, MeshModel::MM_VERTQUALITY) | bits(plugin::vertex_color, MeshModel::MM_VERTCOLOR) |
         bits(plugin::vertex_texcoord, MeshModel::MM_VERTTEXCOORD) |
-        bits(plugin::wedge_texcoord, MeshModel::MM_WEDGTEXCOORD);
-    const bool lasting = filter.changes & (plugin::new_layer | plugin::vertex_texcoord | plugin::wedge_texcoord |
-                                           plugin::custom_attributes);
+        bits(plugin::wedge_texcoord, MeshModel::MM_WEDGTEXCOORD) |
+        bits(plugin::vertex_selection, MeshModel::MM_VERTFLAGSELECT) |
+        bits(plugin::edge_selection, MeshModel::MM_FACEFLAGSELECT);
+    const bool lasting =
+        filter.changes & (plugin::new_layer | plugin::vertex_texcoord | plugin::wedge_texcoord |
+                          plugin::custom_attributes | plugin::vertex_selection | plugin::edge_selection);
     return lasting && changed ? changed | MeshModel::MM_VERTNUMBER : changed;
 }
 

@@ -69,6 +69,7 @@ public:
         }
         if (result.wedges) needed |= MeshModel::MM_WEDGTEXCOORD;
         added_ = needed & ~model.dataMask();
+        customs_ = make_custom_attributes(model.cm, result.attributes);
         try {
             model.updateDataMask(added_);
             if (added_ & MeshModel::MM_VERTTEXCOORD)  // which vcg leaves without any value
@@ -82,7 +83,10 @@ public:
     NewElements(const NewElements&) = delete;
     NewElements& operator=(const NewElements&) = delete;
 
-    void finish() { added_ = 0; }
+    void finish() {
+        added_ = 0;
+        customs_.clear();
+    }
 
 private:
     /// Not by clearDataMask alone: vcg says that a component is there before it has memory for it, and the mask does
@@ -91,10 +95,12 @@ private:
         if (added_ & MeshModel::MM_VERTTEXCOORD) model_.cm.vert.DisableTexCoord();
         if (added_ & MeshModel::MM_WEDGTEXCOORD) model_.cm.face.DisableWedgeTexCoord();
         model_.clearDataMask(added_);
+        remove_custom_attributes(model_.cm, customs_);
     }
 
     MeshModel& model_;
     int added_ = 0;
+    std::vector<std::string> customs_;  ///< names of attributes that were made
 };
 
 LayerChanges changes_of(const Result& result) {
@@ -103,6 +109,8 @@ LayerChanges changes_of(const Result& result) {
     changes.quality = result.quality ? &*result.quality : nullptr;
     changes.attributes = &result.attributes;
     changes.wedges = result.wedges ? &*result.wedges : nullptr;
+    changes.selected_vertex = result.selected_vertex ? &*result.selected_vertex : nullptr;
+    changes.selected_edges = result.selected_edges ? &*result.selected_edges : nullptr;
     return changes;
 }
 

@@ -26,6 +26,8 @@ enum Parts : std::uint32_t {
     wedge_texcoord = 32,
     new_layer = 64,
     custom_attributes = 128,  ///< of vertices, all that a Layer can hold
+    vertex_selection = 256,
+    edge_selection = 512,
 };
 
 /// Where the filter appears in the host's menu.

@@ -30,7 +30,10 @@ DISPLACE, FALLOFF = "apply_coord_multires_displace", "compute_scalar_multires_fa
 NEW_LAYER = [LEVEL, ADAPTIVE, BASE]
 MOVING = [name for name in FILTER_IDS if name.startswith("apply_coord") and name != DISPLACE]  # which asks where to
 ROUGHNESS = "compute_multires_roughness"
-WITH_PYRAMID = [name for name in FILTER_IDS if name not in (UNSHARP, ROUGHNESS, DISPLACE, FALLOFF)]
+RELIEF, SCALES = "compute_scalar_multires_relief_per_vertex", "compute_custom_multires_scales"
+SELECT = "compute_selection_multires_features"
+WITHOUT_PYRAMID = (UNSHARP, ROUGHNESS, RELIEF, SCALES, SELECT, DISPLACE, FALLOFF)
+WITH_PYRAMID = [name for name in FILTER_IDS if name not in WITHOUT_PYRAMID]
 
 POSITIONS = {"vertices", "normals", "face normals", "box"}
 ATTRIBUTES = {"vertex_color_matrix", "vertex_scalar_array", "vertex_tex_coord_matrix", "wedge_tex_coord_matrix"}
@@ -111,7 +114,8 @@ def check_outcome(ms, name, before, report):
     """What every call that succeeds promises."""
     assert report and all(all_finite(value) for value in report.values())
     here = before["current"]
-    allowed = POSITIONS if name in [*MOVING, DISPLACE] else {"vertex_scalar_array", "has"} if name in (DETAIL, FALLOFF) else set()
+    quality = {"vertex_scalar_array", "has"} if name in (DETAIL, FALLOFF, RELIEF, SCALES) else set()
+    allowed = POSITIONS if name in [*MOVING, DISPLACE] else quality
     if name.startswith("apply_attributes"):
         allowed = ATTRIBUTES
     if name.endswith("texcoord"):
@@ -127,6 +131,35 @@ def check_outcome(ms, name, before, report):
         unused = np.setdiff1d(np.arange(len(old)), before["meshes"][here]["faces"])
         np.testing.assert_array_equal(new[unused], old[unused])
     assert len(after["meshes"]) == len(before["meshes"]) + (name in NEW_LAYER)
+
+
+def test_details_by_scale_are_new_attributes_that_the_next_call_takes(tmp_path):
+    ms = bunny()
+    report = ms.apply_filter(SCALES, bands=3)
+    assert len(report["limits"]) == 3
+    first = [ms.current_mesh().vertex_custom_scalar_attribute_array(f"scale_{i}") for i in (1, 2, 3)]
+    assert all(all_finite(values) and np.ptp(values) > 0 for values in first)
+    ms.apply_filter(SCALES, bands=2, values="heights")
+    again = [ms.current_mesh().vertex_custom_scalar_attribute_array(f"scale_{i}") for i in (1, 2, 3)]
+    assert not np.array_equal(first[1], again[1]) and np.array_equal(first[2], again[2])
+    ms.apply_filter("apply_attributes_multires_band_custom", custom_names="scale_1")
+    ms.current_mesh().add_vertex_custom_point_attribute(ms.current_mesh().vertex_matrix(), "taken_1")
+    before = snapshot(ms)
+    with pytest.raises(Error, match="taken_1"):
+        ms.apply_filter(SCALES, prefix="taken")
+    assert differences(before, snapshot(ms)) == []
+
+
+def test_features_are_selected_for_a_pyramid():
+    ms = new_document()
+    ms.create_cube()
+    ms.meshing_surface_subdivision_midpoint(iterations=4)
+    report = ms.apply_filter(SELECT)
+    assert report["length"] == pytest.approx(12) and report["edges"] == 12 * 16
+    kept = ms.apply_filter("apply_coord_multires_low_pass", features="selected edges", cutoff=0.5)
+    assert kept["largest_displacement"] < 0.05
+    ms.apply_filter(SELECT, select="vertices")
+    assert ms.current_mesh().selected_vertex_number() == 12 * 15 + 8
 
 
 # ---- bad and unusual input -------------------------------------------------------------------------------------------

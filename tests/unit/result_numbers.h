@@ -18,6 +18,8 @@ inline std::vector<double> numbers(const Result& r) {
     for (const Attribute& a : r.attributes) out.insert(out.end(), a.values.begin(), a.values.end());
     if (r.wedges)
         for (const Wedge& w : *r.wedges) out.insert(out.end(), {w.u, w.v, static_cast<double>(w.texture)});
+    for (const auto* bits : {&r.selected_vertex, &r.selected_edges})
+        if (*bits) out.insert(out.end(), (*bits)->begin(), (*bits)->end());
     if (r.layer) {
         out.insert(out.end(), r.layer->source_vertex.begin(), r.layer->source_vertex.end());
         out.insert(out.end(), r.layer->source_face.begin(), r.layer->source_face.end());

@@ -1,10 +1,19 @@
 #include "filters/analysis/heights.h"
 
+#include "base/angles.h"
+#include "base/parallel.h"
 #include "base/reduce.h"
+#include "measure/measure.h"
+#include "measure/vertex_normals.h"
+#include "mesh/adjacency.h"
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <queue>
+#include <sstream>
+#include <utility>
 
 namespace multires {
 namespace {
@@ -41,7 +50,71 @@ double square_slope(const Face& f, const Positions& p, const std::vector<double>
     return g.squaredNorm() / (double_area * double_area);
 }
 
+/// Where the vertices stand on the surface `smooth`, seen along its normals.
+Positions feet(const Positions& positions, const Positions& smooth, const Array<Vec3>& normal) {
+    Positions at(positions.size());
+    parallel_for(static_cast<Index>(at.size()),
+                 [&](Index i) { at[i] = positions[i] - normal[i].dot(positions[i] - smooth[i]) * normal[i]; });
+    return at;
+}
+
+/// Refuses what the mesh does not carry, as Spline does.
+void require_carried(const NamedLimit& limit, double mean_edge) {
+    if (std::isfinite(limit.wavelength) && limit.wavelength >= 2 * mean_edge) return;
+    std::ostringstream message;
+    message << limit.parameter << " must be at least two mean edges, " << 2 * mean_edge
+            << " mesh units: the mesh carries no shorter waves";
+    throw InputError(message.str());
+}
+
 }  // namespace
+
+Heights heights_over_low_pass(const Spline& spline, const Mesh& mesh, const TextureBand& band,
+                              const Progress& progress) {
+    if (band.finest.wavelength != 0) require_carried(band.finest, spline.mean_edge());
+    require_carried(band.coarsest, spline.mean_edge());
+    Positions low(mesh.positions.size()), fine = mesh.positions;
+    const double beyond_all = 1000 * bounding_box(mesh.positions).diagonal();  // no wave passes, as in Spline
+    const auto pass = [&](const Spline& s, const NamedLimit& limit, Positions& out, double begin) {
+        const double k = 2 * pi / std::min(limit.wavelength, beyond_all);
+        SolveOptions options;
+        options.tolerance = 1e-9;
+        options.together = true;  // so that a turned mesh gives the same
+        s.solver().rational(terms(band.order), 1 / (k * k), mesh.positions, out, options,
+                            progress.part(begin, begin + 0.25));
+    };
+    pass(spline, band.coarsest, low, 0);
+    const Mesh smooth{feet(mesh.positions, low, vertex_normals(mesh.faces, low)), mesh.faces};
+    const Spline there(smooth, {}, progress.part(0.25, 0.5));
+    if (band.finest.wavelength > 0) pass(there, band.finest, fine, 0.5);
+    pass(there, band.coarsest, low, 0.75);
+    const Array<Vec3> normal = vertex_normals(mesh.faces, low);
+    Heights out;
+    out.reference = {feet(mesh.positions, low, normal), mesh.faces};
+    out.height.resize(fine.size());
+    parallel_for(static_cast<Index>(fine.size()), [&](Index i) { out.height[i] = normal[i].dot(fine[i] - low[i]); });
+    return out;
+}
+
+std::vector<double> distance_from_rim(const Mesh& mesh, double most) {
+    const Rings rings = vertex_rings(mesh);
+    std::vector<double> distance(mesh.positions.size(), std::numeric_limits<double>::infinity());
+    using Entry = std::pair<double, Index>;
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;
+    for (Index v = 0; v < rings.rows(); ++v)
+        if (rings.kind[v] == RingKind::open) next.emplace(distance[v] = 0, v);
+    while (!next.empty()) {
+        const auto [d, v] = next.top();
+        next.pop();
+        if (d > distance[v] || d > most) continue;
+        for (Index j = rings.offset[v]; j < rings.offset[v + 1]; ++j) {
+            const Index w = rings.neighbor[j];
+            const double there = d + (mesh.positions[v] - mesh.positions[w]).norm();
+            if (there < distance[w]) next.emplace(distance[w] = there, w);
+        }
+    }
+    return distance;
+}
 
 std::vector<double> vertex_areas(const Mesh& mesh) {
     std::vector<double> area(mesh.positions.size(), 0);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "bands/spline.h"
 #include "filters/analysis/form.h"
 #include "filters/filter.h"
 
@@ -17,6 +18,31 @@ struct Heights {
 /// A third of the area of the faces around each vertex, square mesh units; faces without an area count for nothing.
 /// @returns  #V
 std::vector<double> vertex_areas(const Mesh& mesh);
+
+/// A limit of a band, and the parameter to blame for it.
+struct NamedLimit {
+    double wavelength = 0;  ///< mesh units; 0 as the fine limit: none
+    const char* parameter = "";
+};
+
+struct TextureBand {
+    LowPassOrder order = LowPassOrder::gaussian;
+    NamedLimit finest, coarsest;
+};
+
+/// Heights of the low pass at `finest` over that at `coarsest`, along the normals of the latter.
+///
+/// The metric of a rough surface is that of its flanks, which makes waves longer than they are seen from afar. So the
+/// low passes are taken twice, the second time with the metric of what the vertices stand on after the first.
+/// @param spline  of the mesh
+/// @throws InputError  as Spline::low_pass
+Heights heights_over_low_pass(const Spline& spline, const Mesh& mesh, const TextureBand& band,
+                              const Progress& progress);
+
+/// Length of the way along edges to the nearest vertex of an open rim, mesh units; what is beyond `most` may be
+/// infinite. Cost: O(n log n) for the n vertices within that.
+/// @returns  #V
+std::vector<double> distance_from_rim(const Mesh& mesh, double most);
 
 /// ISO 25178-2 height and hybrid parameters of heights, as mesh units, ratios, and percent (sdr), by the area of the
 /// reference. Heights count from their mean; slopes are those of linear functions on the faces.

@@ -5,15 +5,10 @@
 #include "filters/calibration.h"
 #include "filters/region.h"
 #include "measure/measure.h"
-#include "measure/vertex_normals.h"
-#include "mesh/adjacency.h"
 #include "mesh/validation.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
-#include <queue>
 #include <utility>
 
 namespace multires {
@@ -56,27 +51,6 @@ Mesh cut_out(const Mesh& mesh, Faces faces) {
     return out;
 }
 
-/// Along edges, mesh units; what is beyond `most` may be infinite.
-std::vector<double> distance_from_rim(const Mesh& mesh, double most) {
-    const Rings rings = vertex_rings(mesh);
-    std::vector<double> distance(mesh.positions.size(), std::numeric_limits<double>::infinity());
-    using Entry = std::pair<double, Index>;
-    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;
-    for (Index v = 0; v < rings.rows(); ++v)
-        if (rings.kind[v] == RingKind::open) next.emplace(distance[v] = 0, v);
-    while (!next.empty()) {
-        const auto [d, v] = next.top();
-        next.pop();
-        if (d > distance[v] || d > most) continue;
-        for (Index j = rings.offset[v]; j < rings.offset[v + 1]; ++j) {
-            const Index w = rings.neighbor[j];
-            const double there = d + (mesh.positions[v] - mesh.positions[w]).norm();
-            if (there < distance[w]) next.emplace(distance[w] = there, w);
-        }
-    }
-    return distance;
-}
-
 /// Without those in the strip along open rims where the low pass, for want of what is beyond, leans on the rim; all of
 /// them, if that is all there is.
 Faces away_from_rim(const Mesh& mesh, Faces faces, double l_filter, Report& report) {
@@ -92,34 +66,11 @@ Faces away_from_rim(const Mesh& mesh, Faces faces, double l_filter, Report& repo
     return faces;
 }
 
-/// Where the vertices stand on the surface `smooth`, seen along its normals.
-Positions feet(const Positions& positions, const Positions& smooth, const Array<Vec3>& normal) {
-    Positions at(positions.size());
-    parallel_for(static_cast<Index>(at.size()),
-                 [&](Index i) { at[i] = positions[i] - normal[i].dot(positions[i] - smooth[i]) * normal[i]; });
-    return at;
-}
-
-/// The metric of a rough surface is that of its flanks, which makes waves longer than they are seen from afar. So the
-/// low pass is taken twice, the second time with the metric of what the vertices stand on after the first.
 Heights over_low_pass(const Layer& layer, const RoughnessOptions& o, Faces faces, Session& session, Report& report) {
-    const Mesh& mesh = layer.mesh;
     const auto spline = spline_of(layer, {}, session, report);
-    Positions low(mesh.positions.size()), fine = mesh.positions;
-    const auto pass = [&](const Spline& s, double cutoff, const char* parameter, Positions& out, double begin) {
-        s.low_pass({o.order, cutoff}, ConstRows(mesh.positions), Rows(out), parameter,
-                   session.progress.part(begin, begin + 0.2));
-    };
-    pass(*spline, o.l_filter, "l_filter", low, 0.3);
-    const Mesh smooth{feet(mesh.positions, low, vertex_normals(mesh.faces, low)), mesh.faces};
-    const Spline there(smooth, {}, session.progress.part(0.5, 0.6));
-    if (o.s_filter > 0) pass(there, o.s_filter, "s_filter", fine, 0.6);
-    pass(there, o.l_filter, "l_filter", low, 0.75);
-    const Array<Vec3> normal = vertex_normals(mesh.faces, low);
-    Heights out;
-    out.reference = {feet(mesh.positions, low, normal), away_from_rim(mesh, std::move(faces), o.l_filter, report)};
-    out.height.resize(fine.size());
-    parallel_for(static_cast<Index>(fine.size()), [&](Index i) { out.height[i] = normal[i].dot(fine[i] - low[i]); });
+    const TextureBand band{o.order, {o.s_filter, "s_filter"}, {o.l_filter, "l_filter"}};
+    Heights out = heights_over_low_pass(*spline, layer.mesh, band, session.progress.part(0.3, 0.9));
+    out.reference.faces = away_from_rim(layer.mesh, std::move(faces), o.l_filter, report);
     return out;
 }
 
