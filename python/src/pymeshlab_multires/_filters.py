@@ -7,15 +7,16 @@ from ._call import Array, MeshSet, Vector, also_flat, apply
 
 __all__ = [
     "AdaptiveReconstructionReport", "AttributeChanges", "BuildPyramidReport", "DenoiseAttributesReport",
-    "DenoiseReport", "DetailToQualityReport", "DifferenceToLayerReport", "EnhanceReport", "EqualizerReport",
-    "FalloffToQualityReport", "Features", "FilterAttributesReport", "FilterCustomAttributesReport",
+    "DenoiseReport", "DetailToQualityReport", "DetailsByScaleReport", "DifferenceToLayerReport", "EnhanceReport",
+    "EqualizerReport", "FalloffToQualityReport", "Features", "FilterAttributesReport", "FilterCustomAttributesReport",
     "GenerateTexcoordReport", "Grouping", "LIMITS", "LevelAsLayerReport", "LowPassReport", "Mode", "MoveRegionReport",
-    "Movement", "Operator", "Order", "Pyramid", "PyramidUse", "RelativeTo", "RelaxAttributesReport", "Result",
-    "RoughnessReport", "Scheme", "SmoothBaseAsLayerReport", "Split", "StopBandReport", "Storage", "TransferEditReport",
-    "UnsharpReport", "Update", "adaptive_reconstruction", "build_pyramid", "denoise", "denoise_attributes",
-    "detail_to_quality", "difference_to_layer", "enhance", "equalizer", "falloff_to_quality", "filter_attributes",
-    "filter_custom_attributes", "generate_texcoord", "level_as_layer", "low_pass", "move_region", "relax_attributes",
-    "roughness", "smooth_base_as_layer", "stop_band", "transfer_edit", "unsharp",
+    "Movement", "Operator", "Order", "Pyramid", "PyramidUse", "RelativeTo", "RelaxAttributesReport", "ReliefReport",
+    "Result", "RoughnessReport", "Scheme", "SelectFeaturesReport", "SmoothBaseAsLayerReport", "Split", "StopBandReport",
+    "Storage", "TransferEditReport", "UnsharpReport", "Update", "adaptive_reconstruction", "build_pyramid", "denoise",
+    "denoise_attributes", "detail_to_quality", "details_by_scale", "difference_to_layer", "enhance", "equalizer",
+    "falloff_to_quality", "filter_attributes", "filter_custom_attributes", "generate_texcoord", "level_as_layer",
+    "low_pass", "move_region", "relax_attributes", "relief", "roughness", "select_features", "smooth_base_as_layer",
+    "stop_band", "transfer_edit", "unsharp",
 ]
 
 Scheme: TypeAlias = Literal["Roy", "Guskov", "Lazy", "Szczesna"]
@@ -263,6 +264,54 @@ class RoughnessReport:
     """Limits of the histogram, from the mean height; one more than shares (mesh units)."""
     shares: Array
     """Share of the area between two heights; sum 1."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class ReliefReport(Result):
+    """What relief() returns."""
+
+    solver_reused: bool
+    """The solver kept with the mesh was used; otherwise one was set up and kept."""
+    finest: float
+    """The fine limit of the band, 0 if there is none (mesh units)."""
+    coarsest: float
+    """The coarse limit (mesh units)."""
+    lowest: float
+    """The lowest height (mesh units)."""
+    highest: float
+    """The highest (mesh units)."""
+    rms_height: float
+    """Root mean square of the heights, by area (mesh units)."""
+    skewness: float
+    """Of the heights: below 0 where the relief is cut, above where it is raised."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class DetailsByScaleReport(Result):
+    """What details_by_scale() returns."""
+
+    solver_reused: bool
+    """The solver kept with the mesh was used; otherwise one was set up and kept."""
+    limits: Array
+    """Where each band ends; it begins where the one before ends (mesh units)."""
+    wavelengths: Array
+    """The middle of each band: what the quality holds (mesh units)."""
+    rms_details: Array
+    """Root mean square detail of each band, by area (mesh units)."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class SelectFeaturesReport(Result):
+    """What select_features() returns."""
+
+    edges: int
+    """Edges on the lines."""
+    vertices: int
+    """Vertices on the lines."""
+    length: float
+    """Length of all lines (mesh units)."""
+    noise: float
+    """Median difference of neighbouring normals before they were denoised."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -735,6 +784,90 @@ def roughness(
             2021.
     """
     return apply(RoughnessReport, "compute_multires_roughness", **locals())
+
+
+def relief(
+    ms: MeshSet, *, coarsest: float = 0.0, finest: float = 0.0, order: Order = "2", color: bool = False,
+) -> ReliefReport:
+    """Signed height over the low pass as vertex quality, in mesh units: carvings, tool marks, wear.
+
+    The band is chosen from the mesh unless one is given.
+
+    The filter compute_scalar_multires_relief_per_vertex, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        coarsest: Mesh units: the relief is what is left without waves longer than that, about three times as wide as
+            strokes. At least two mean edges; 0: the band is chosen from the mesh. A number, at least 0.
+        finest: Mesh units: shorter waves are left out as noise. At least two mean edges; 0: all count, or chosen with
+            the coarsest. A number, at least 0.
+        order: How steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 + s^2) (ISO
+            16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
+        color: Colour the vertices, too: blue is deep, grey level, red high.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        ISO/TC 213, "ISO 16610-62: Filtration: Linear areal filters: Spline filters", 2023.
+    """
+    return apply(ReliefReport, "compute_scalar_multires_relief_per_vertex", **locals())
+
+
+def details_by_scale(
+    ms: MeshSet, *, bands: int = 8, finest: float | None = None, coarsest: float | None = None,
+    values: Literal["bands", "heights"] = "bands", prefix: str = "scale",
+) -> DetailsByScaleReport:
+    """The signed detail of up to 16 bands of wavelengths as custom attributes of the vertices, and as quality the
+    wavelength at which a vertex stands out most: feature vectors for classification, and for finding writing.
+
+    The filter compute_custom_multires_scales, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        bands: How many bands. A whole number, 1 to 16.
+        finest: Mesh units: the first band holds the waves shorter than that. At least two mean edges. Not with one
+            band. A number, at least 0. None: derived from the mesh.
+        coarsest: Mesh units: the last band ends at this wavelength. A number, at least 0. None: derived from the mesh.
+        values: Bands: what each band adds. Heights: what all bands up to it add, the height over the low pass, which
+            goes with the volume integral invariant of a ball of 0.45 limits radius.
+        prefix: The attributes are called so, followed by _1 (finest), _2, ...
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Mara, Krömker, Jakob, Breuckmann, "GigaMesh and Gilgamesh: 3D Multiscale Integral Invariant Cuneiform Character
+            Extraction", VAST 2010.
+        Guskov, Sweldens, Schröder, "Multiresolution Signal Processing for Meshes", SIGGRAPH 1999.
+    """
+    return apply(DetailsByScaleReport, "compute_custom_multires_scales", **locals())
+
+
+def select_features(
+    ms: MeshSet, *, strong: float = 30.0, weak: float = 15.0, shortest: int = 6,
+    select: Literal["edges", "vertices"] = "edges",
+) -> SelectFeaturesReport:
+    """Selects the lines along which a surface is sharp at every scale, with noise, too, and cleans them: branches out,
+    gaps closed.
+
+    The filter compute_selection_multires_features, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        strong: Lines start at edges that bend by as much, at every scale. A number, 1 to 179.
+        weak: Lines go on along edges that bend by as much; at most the strong one. A number, 1 to 179.
+        shortest: Edges: shorter branches and loose lines are left out, and gaps of up to half of it are closed. A whole
+            number, 0 to 1000.
+        select: Edges: what features=selected edges of the other filters then keeps sharp. Vertices: those on the lines.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Hubeli, Gross, "Multiresolution Feature Extraction for Unstructured Meshes", Visualization 2001.
+    """
+    return apply(SelectFeaturesReport, "compute_selection_multires_features", **locals())
 
 
 @also_flat(Pyramid)
@@ -1496,6 +1629,12 @@ LIMITS: dict[str, dict[str, tuple[float, float]]] = {
     },
     "detail_to_quality": {
         "softness": (0, 10),
+    },
+    "details_by_scale": {
+        "bands": (1, 16),
+    },
+    "select_features": {
+        "strong": (1, 179), "weak": (1, 179), "shortest": (0, 1000),
     },
     "low_pass": {
         "softness": (0, 10),
