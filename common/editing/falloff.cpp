@@ -24,11 +24,11 @@ std::vector<double> falloff(const Mesh& mesh, const std::vector<std::uint8_t>& i
         t[v] = inside[v] ? 1 : free ? 1 - away[v] / distance : 0;
     }
     if (between) {
-        const System system(mesh, how, progress.part(0.2, 0.5));
+        const System solver(mesh, how, progress.part(0.2, 0.5));
         const Array<double> nothing(inside.size(), 0.0);
         SolveOptions options;
         options.tolerance = 1e-10;
-        system.solve(0, 1, ConstRows(nothing, 1), Rows(t, 1), options, progress.part(0.5, 1));
+        solver.solve(0, 1, ConstRows(nothing, 1), Rows(t, 1), options, progress.part(0.5, 1));
     }
     std::vector<double> theta(inside.size());
     for (std::size_t v = 0; v < theta.size(); ++v)

@@ -74,7 +74,7 @@ struct Residual {
     double square = 0, terms = 0;
 };
 
-Residual residual_of(const Mesh& fine, const Stiffness& c, const Motion& motion, const Screened& system) {
+Residual residual_of(const Mesh& fine, const Stiffness& c, const Motion& motion, const Screened& solver) {
     Residual r{Array<double>(3 * static_cast<std::size_t>(c.rows())), 0, 0};
     struct Sums {
         double square = 0, terms = 0;
@@ -83,7 +83,7 @@ Residual residual_of(const Mesh& fine, const Stiffness& c, const Motion& motion,
     const Sums sums = chunked_fold<Sums>(c.rows(), [&](Sums& part, std::size_t row) {
         const auto i = static_cast<Index>(row);
         Vec3 sum = Vec3::Zero();
-        for (Index k = c.offset[i]; k < c.offset[i + 1] && system.moves(i); ++k) {
+        for (Index k = c.offset[i]; k < c.offset[i + 1] && solver.moves(i); ++k) {
             const Index j = c.column[k];
             const Vec3 edge = fine.positions[i] - fine.positions[j];
             const Vec3 wanted = 0.5 * (motion.gradient[i] * edge + motion.gradient[j] * edge);
@@ -106,8 +106,8 @@ Positions gradient_domain(const Mesh& fine, Motion& motion, const GradientDomain
     progress.report(0, "Setting up the equations");
     const Stiffness c = stiffness(fine);
     smooth_gradients(c, options.smoothing, motion.gradient, progress.part(0.2, 0.6));
-    const Screened system(c, options.hold, motion);
-    Residual r = residual_of(fine, c, motion, system);
+    const Screened solver(c, options.hold, motion);
+    Residual r = residual_of(fine, c, motion, solver);
     Positions u = motion.displacement;
     constexpr double rounding = 1e-13;  // of the terms: less is no residual
     if (!(r.square > rounding * rounding * r.terms)) return u;
@@ -115,10 +115,10 @@ Positions gradient_domain(const Mesh& fine, Motion& motion, const GradientDomain
     how.tolerance = 1e-6;
     how.most_steps = 100;
     conjugate_gradients<3, false, double>(
-        r.values, how, [&](const Array<double>& p, Array<double>& q) { system.apply(p, q); },
-        [&](const Array<double>& from, Array<double>& to) { system.precondition(from, to); },
+        r.values, how, [&](const Array<double>& p, Array<double>& q) { solver.apply(p, q); },
+        [&](const Array<double>& from, Array<double>& to) { solver.precondition(from, to); },
         [&](Index i, const double* change) {
-            if (!system.moves(i)) return 0.0;
+            if (!solver.moves(i)) return 0.0;
             const Vec3 step(change[0], change[1], change[2]);
             u[i] += step;
             return step.squaredNorm();

@@ -31,8 +31,8 @@ Wrapped wrap(const Mesh& mesh, const Faces& faces, const Positions& surface, con
     constexpr int steps = 16;
     progress.report(0, "Setting up the equations");
     const SurfaceTree tree(faces, surface);
-    const System system(mesh, {}, progress.part(0, 0.1));
-    const Stiffness& c = system.matrices();
+    const System solver(mesh, {}, progress.part(0, 0.1));
+    const Stiffness& c = solver.matrices();
     const double longest = bounding_box(mesh.positions).diagonal() / 4;
     const double shortest = mean_edge_length(mesh.faces, mesh.positions);
     Wrapped out{mesh.positions, 0};
@@ -44,7 +44,7 @@ Wrapped wrap(const Mesh& mesh, const Faces& faces, const Positions& surface, con
         for (std::size_t i = 0; i < u.size(); ++i) wanted[i] = c.mass[i] * (wanted[i] + u[i]);
         SolveOptions how;
         how.tolerance = 1e-6;
-        system.solve(1, length * length, wanted, u, how, now.part(0.5, 1));
+        solver.solve(1, length * length, wanted, u, how, now.part(0.5, 1));
         for (std::size_t i = 0; i < u.size(); ++i) out.positions[i] = mesh.positions[i] + u[i];
     }
     const Positions left = ways_to(tree, out.positions, progress.part(0.99, 1));

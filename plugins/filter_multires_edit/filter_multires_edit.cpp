@@ -63,9 +63,8 @@ SmoothBaseOptions base_defaults(const Layer* layer) {
 void bind_base(Parameters& p, SmoothBaseOptions& o) {
     p.add("vertices", &o.vertices, "Vertices kept",
           "How many vertices stay where they are. Fewer give a smoother base; waves longer than a few of their "
-          "distances "
-          "are left.")
-        .at_least(4)
+          "distances are left.")
+        .at_least(1)
         .derived();
     bind_pyramid(p, o.pyramid);
 }

@@ -15,6 +15,10 @@
 #include <sstream>
 #include <utility>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace multires::host {
 namespace {
 
@@ -165,8 +169,22 @@ RichParameterList parameters(const Filter& filter, const MeshDocument& document)
     }
 }
 
+namespace {
+
+/// glibc keeps the blocks that are freed; what a filter used for a while goes back to the system.
+struct MemoryGoesBack {
+    ~MemoryGoesBack() {
+#ifdef __GLIBC__
+        malloc_trim(0);
+#endif
+    }
+};
+
+}  // namespace
+
 void apply(const Filter& filter, const RichParameterList& list, MeshDocument& document, vcg::CallBackPos* callback,
            const std::function<void(const Report&)>& prepare) {
+    const MemoryGoesBack at_end;
     release_deleted(document);
     MeshModel& model = current_mesh(filter, document);
     const VcgLayer flat = read_layer(filter, model);

@@ -83,7 +83,7 @@ protected:
             ++successes;
             c = std::make_unique<Case>(GetParam(), content);
         }
-        EXPECT_GT(refusals, large ? 2 : 50);
+        EXPECT_GT(refusals, large ? 2 : 30);
         EXPECT_LT(successes, refusals);
     }
 };

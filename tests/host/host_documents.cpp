@@ -111,10 +111,12 @@ void enrich(MeshModel& model) {
 }
 
 void fill(MeshDocument& document, Content content) {
-    add(document, shapes::tetrahedron(), "another");
     Mesh mesh = content == Content::large ? shapes::scan(200000) : shapes::irregular_sphere(42, {0.3, 0.3, 5});
     mesh.faces.resize(mesh.faces.size() - 3);
     mesh.positions.push_back({0, 3, 0});
+    Mesh edited = mesh;  // what filters of two layers take: Follow Edited Layer a copy of the layer itself
+    for (Vec3& p : edited.positions) p.x() += 0.01 * p.y() * p.y();
+    add(document, edited, "another");
     MeshModel& model = add(document, mesh, "mesh");
     if (content != Content::bare) enrich(model);
     CMeshO& m = model.cm;

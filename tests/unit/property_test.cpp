@@ -425,7 +425,9 @@ bool check_random(const Filter& filter, const Layer& layer, const Variant& varia
         return false;
     }
     EXPECT_TRUE(finite(fixtures::numbers(result)));
-    if (result.positions && filter.python_name != "apply_coord_multires_transfer_edit") {  // which takes all along
+    const bool takes_all_along = filter.python_name == "apply_coord_multires_transfer_edit" ||
+                                 filter.python_name == "apply_coord_multires_displace";  // what is selected
+    if (result.positions && !takes_all_along) {
         std::vector<std::uint8_t> used(layer.mesh.positions.size(), 0);
         for (const Face& f : layer.mesh.faces)
             for (const Index v : f) used[v] = 1;

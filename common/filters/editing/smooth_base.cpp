@@ -53,12 +53,12 @@ Result generate_base(const Layer& layer, const SmoothBaseOptions& options, Sessi
     Positions base = pyramid->synthesise(coarse_gains(h, kept));
     for (std::size_t v = 0; v < base.size(); ++v)
         if (how.fixed[v]) base[v] = layer.mesh.positions[v];
-    const System system(layer.mesh, how, whole.part(0.2, 0.4));
+    const System solver(layer.mesh, how, whole.part(0.2, 0.4));
     SolveOptions solve;
     solve.tolerance = 1e-6;
     solve.most_steps = 400;
     const Positions nothing(base.size(), Vec3::Zero());
-    const Solved solved = system.solve(0, 1, nothing, base, solve, whole.part(0.4, 0.95));
+    const Solved solved = solver.solve(0, 1, nothing, base, solve, whole.part(0.4, 0.95));
     whole.report(0.95, "Making the layer");
     const Displacement way = displacement(layer.mesh.positions, base);
     result.report.add("vertices_kept", static_cast<int>(kept));

@@ -41,8 +41,8 @@ struct TransferEditOptions {
 /// 3. Otherwise the nearest level of the pyramid, wrapped onto `edited` (editing/wrap.h).
 ///
 /// Layers are compared where the document shows them; a layer that was moved as a whole was edited. An edit that
-/// changes nothing leaves the layer as it is, bit for bit. So does any edit with all vertices out of its reach. Vertices
-/// without faces follow as well.
+/// changes nothing leaves the layer as it is, bit for bit. So does any edit with all vertices out of its reach.
+/// Vertices without faces follow as well.
 ///
 /// Reports the way, how far the layer is from the proxy, faces that are folded against their neighbourhood's motion,
 /// and the change.
