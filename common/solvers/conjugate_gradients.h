@@ -60,6 +60,28 @@ struct Norms {
     }
 };
 
+/// The number of a row and channel.
+template <int L, class Scalar, class Values>
+Scalar number(const Values& v, std::size_t row, int channel) {
+    if constexpr (std::is_same_v<Scalar, double>)
+        return static_cast<double>(v[row * L + channel]);
+    else
+        return {static_cast<double>(v[row * 2 * L + channel]), static_cast<double>(v[row * 2 * L + L + channel])};
+}
+
+/// Without the checks for infinities of the standard's product.
+inline double product(double a, double b) { return a * b; }
+inline std::complex<double> product(const std::complex<double>& a, const std::complex<double>& b) {
+    return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+}
+
+/// 0 where it is not finite.
+template <class Scalar>
+Scalar ratio(const Scalar& a, const Scalar& b) {
+    const Scalar q = b == Scalar(0) ? Scalar(0) : a / b;
+    return std::isfinite(std::abs(q)) ? q : Scalar(0);
+}
+
 }  // namespace gradients_detail
 
 /// Preconditioned conjugate gradients (Hestenes and Stiefel 1952) for L independent right-hand sides at once, or, for
@@ -81,14 +103,8 @@ GradientsResult conjugate_gradients(Array<double>& r, const GradientsOptions& op
     using Norms = gradients_detail::Norms<L>;
     constexpr int stride = Z ? 2 * L : L;
     const std::size_t rows = r.size() / stride;
-    const auto get = [](const auto& v, std::size_t i, int c) -> Scalar {
-        if constexpr (Z) return {static_cast<double>(v[i * stride + c]), static_cast<double>(v[i * stride + L + c])};
-        if constexpr (!Z) return static_cast<double>(v[i * stride + c]);
-    };
-    const auto product = [](const Scalar& a, const Scalar& b) -> Scalar {
-        if constexpr (Z) return {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-        if constexpr (!Z) return a * b;
-    };
+    const auto get = [](const auto& v, std::size_t i, int c) { return gradients_detail::number<L, Scalar>(v, i, c); };
+    using gradients_detail::product, gradients_detail::ratio;
     const auto dot = [&](const auto& a, const auto& b) {
         Dots all = chunked_reduce<Dots>(rows, [&](std::size_t begin, std::size_t end) {
             Dots sum;
@@ -98,10 +114,6 @@ GradientsResult conjugate_gradients(Array<double>& r, const GradientsOptions& op
         });
         if (options.together) all.join();
         return all;
-    };
-    const auto ratio = [](const Scalar& a, const Scalar& b) {
-        const Scalar q = b == Scalar(0) ? Scalar(0) : a / b;
-        return std::isfinite(std::abs(q)) ? q : Scalar(0);
     };
 
     Norms first = chunked_reduce<Norms>(rows, [&](std::size_t begin, std::size_t end) {

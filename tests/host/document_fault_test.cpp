@@ -53,7 +53,8 @@ protected:
         c->run();
         const long made_at_all = faults::stop(), step = large ? made_at_all / 6 + 1 : 1;
         const Snapshot done = snapshot(c->document);
-        EXPECT_TRUE(done != c->before || done.cached != c->before.cached)
+        const bool may_find_nothing = large && GetParam().name == "compute_selection_multires_features";  // a scan
+        EXPECT_TRUE(done != c->before || done.cached != c->before.cached || may_find_nothing)
             << "the filter changes nothing at all, not even the kept pyramid";
         c = std::make_unique<Case>(GetParam(), content);
         int refusals = 0, successes = 0;
