@@ -73,7 +73,7 @@ std::vector<std::string> scheme_names();
 /// Calls visit(option, field) for every field of the options, in the order in which dialogs show them. Checks, hashes
 /// and dialogs all come from here: a new option is a field and a line of this function, which does not compile without.
 template <class Visit>
-void visit_options(PyramidOptions& o, const Visit& visit) {
+void visit_options(PyramidOptions& o, const Visit& visit) {  // NOLINT(readability-function-size): a table
     auto& [row, op, presmooth, storage, update] = o.scheme;
     auto& [grouping, sets, set_share, memoryless, boundary_weight, level_ratio, base_vertices, normal_limit,
            length_weight, split, seed, flaps, even_rings, mean_edges] = o.hierarchy;
