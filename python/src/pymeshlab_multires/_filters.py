@@ -1283,7 +1283,7 @@ def smooth_base_as_layer(
     Args:
         ms: the document.
         vertices: How many vertices stay where they are. Fewer give a smoother base; waves longer than a few of their
-            distances are left. A whole number, at least 4. None: derived from the mesh.
+            distances are left. A whole number, at least 1. None: derived from the mesh.
         pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
