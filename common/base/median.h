@@ -16,4 +16,14 @@ T upper_median(std::vector<T>& values) {
     return *middle;
 }
 
+/// The value that a share (0 to 1) of the values does not exceed; of two neighbours the smaller.
+/// @param values  at least one; reordered
+/// Cost: linear on average.
+template <class T>
+T lower_quantile(std::vector<T>& values, double share) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
 }  // namespace multires

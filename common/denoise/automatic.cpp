@@ -1,5 +1,6 @@
 #include "denoise/automatic.h"
 
+#include "base/median.h"
 #include "base/parallel.h"
 #include "base/reduce.h"
 #include "measure/measure.h"
@@ -32,12 +33,7 @@ bool stand_out(const Faces& faces, const Positions& before, const Positions& aft
         if (before[i] != after[i]) moved.push_back(std::abs(detail[3 * i]));
         rest.push_back(std::abs(left[3 * i]));
     }
-    const auto quantile = [](std::vector<double>& v, double share) {
-        const auto it = v.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(v.size() - 1));
-        std::nth_element(v.begin(), it, v.end());
-        return *it;
-    };
-    return !moved.empty() && quantile(moved, 0.5) > 1.3 * quantile(rest, 0.8);
+    return !moved.empty() && lower_quantile(moved, 0.5) > 1.3 * lower_quantile(rest, 0.8);
 }
 
 /// Of the noise along the normals, #V, mesh units.

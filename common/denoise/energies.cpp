@@ -1,5 +1,6 @@
 #include "denoise/energies.h"
 
+#include "base/median.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -14,10 +15,7 @@ constexpr int smooth_steps = 20;  ///< more of it for what white noise leaves: a
 constexpr std::size_t bins = 10;
 
 double quantile_of(std::vector<double> values, double share) {
-    if (values.empty()) return 0;
-    const auto it = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), it, values.end());
-    return *it;
+    return values.empty() ? 0 : lower_quantile(values, share);
 }
 
 double mean_of(const std::vector<double>& values) {

@@ -1,5 +1,6 @@
 #include "denoise/field_noise.h"
 
+#include "base/median.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -54,12 +55,7 @@ public:
     }
 
 private:
-    double quantile(int channel, double share) {
-        std::vector<double>& x = all_[channel];
-        const auto it = x.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(x.size() - 1));
-        std::nth_element(x.begin(), it, x.end());
-        return *it;
-    }
+    double quantile(int channel, double share) { return lower_quantile(all_[channel], share); }
 
     std::array<std::vector<double>, 3> all_;
 };

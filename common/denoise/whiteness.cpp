@@ -1,5 +1,6 @@
 #include "denoise/whiteness.h"
 
+#include "base/median.h"
 #include "denoise/along_normals.h"
 
 #include <algorithm>
@@ -32,15 +33,9 @@ Lengths third_differences(const Neighbours& near, const Positions& positions, co
     return lengths;
 }
 
-double quantile(std::vector<double>& values, double share) {
-    const auto it = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), it, values.end());
-    return *it;
-}
-
 double ratio(std::vector<double>& lengths, double low, double high) {
-    const double most = quantile(lengths, high);
-    return most > 0 ? quantile(lengths, low) / most : 0;
+    const double most = lower_quantile(lengths, high);
+    return most > 0 ? lower_quantile(lengths, low) / most : 0;
 }
 
 }  // namespace

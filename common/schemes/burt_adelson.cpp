@@ -35,18 +35,11 @@ public:
     }
 
     Field synthesise(const Coefficients& coefficients, const Synthesis& how) const override {
-        return synthesise_levels(hierarchy(), coefficients, how,
-                                 [&](std::size_t k, const std::vector<Subband>* d, double gain, Field& f) {
-                                     const bool frames = coarse_ && has_frames(f);
-                                     if (!d)
-                                         synthesise_level<double>(k, {}, {}, f);
-                                     else if (d->front().single.empty())
-                                         synthesise_level(k, details_of<double>(d->front(), gain, frames),
-                                                          details_of<double>(d->back(), gain, frames), f);
-                                     else
-                                         synthesise_level(k, details_of<float>(d->front(), gain, frames),
-                                                          details_of<float>(d->back(), gain, frames), f);
-                                 });
+        return synthesise_levels(
+            hierarchy(), coefficients, how, [&](std::size_t k, const std::vector<Subband>* d, double gain, Field& f) {
+                with_details(d, gain, coarse_ && has_frames(f),
+                             [&](const auto& odd, const auto& even) { synthesise_level(k, odd, even, f); });
+            });
     }
 
     std::size_t bytes() const override { return relaxed_rows::bytes(odd_) + relaxed_rows::bytes(even_); }

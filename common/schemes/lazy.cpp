@@ -35,12 +35,8 @@ public:
     Field synthesise(const Coefficients& coefficients, const Synthesis& how) const override {
         return synthesise_levels(hierarchy(), coefficients, how,
                                  [&](std::size_t k, const std::vector<Subband>* d, double gain, Field& f) {
-                                     if (!d)
-                                         synthesise_level(k, Details<double>(), f);
-                                     else if (d->front().single.empty())
-                                         synthesise_level(k, details_of<double>(d->front(), gain, has_frames(f)), f);
-                                     else
-                                         synthesise_level(k, details_of<float>(d->front(), gain, has_frames(f)), f);
+                                     with_details(d, gain, has_frames(f),
+                                                  [&](const auto& odd, const auto&) { synthesise_level(k, odd, f); });
                                  });
     }
 

@@ -147,6 +147,19 @@ Details<Value> details_of(const Subband& band, double gain, bool frames) {
     return {band.rings, values, frames && !band.local.empty() ? band.local.data() : nullptr, gain};
 }
 
+/// Calls run(first, last) with the details of the first and the last subband of a level as they are stored, both
+/// Details<double> or both Details<float>.
+/// @param bands  null: all details are zero
+template <class Run>
+void with_details(const std::vector<Subband>* bands, double gain, bool frames, const Run& run) {
+    if (!bands) return run(Details<double>(), Details<double>());
+    const Subband &first = bands->front(), &last = bands->back();
+    if (first.single.empty())
+        run(details_of<double>(first, gain, frames), details_of<double>(last, gain, frames));
+    else
+        run(details_of<float>(first, gain, frames), details_of<float>(last, gain, frames));
+}
+
 /// Synthesis of all levels, one by one: values of a level become those of the finer one, in place.
 /// @param level  void(std::size_t k, const std::vector<Subband>* details, double gain, Field& f); null: all are zero
 template <class Level>

@@ -86,15 +86,10 @@ public:
     }
 
     Field synthesise(const Coefficients& coefficients, const Synthesis& how) const override {
-        return synthesise_levels(hierarchy(), coefficients, how,
-                                 [&](std::size_t k, const std::vector<Subband>* d, double gain, Field& f) {
-                                     if (!d)
-                                         synthesise_level(k, Details<double>(), f);
-                                     else if (d->front().single.empty())
-                                         synthesise_level(k, details_of<double>(d->front(), gain, false), f);
-                                     else
-                                         synthesise_level(k, details_of<float>(d->front(), gain, false), f);
-                                 });
+        return synthesise_levels(
+            hierarchy(), coefficients, how, [&](std::size_t k, const std::vector<Subband>* d, double gain, Field& f) {
+                with_details(d, gain, false, [&](const auto& odd, const auto&) { synthesise_level(k, odd, f); });
+            });
     }
 
     std::size_t bytes() const override {

@@ -57,6 +57,15 @@ struct Piece {
     std::vector<float> c, m;
 };
 
+Array<Index> offsets_of(const std::vector<Piece>& pieces, Index rows) {
+    Array<Index> offset(static_cast<std::size_t>(rows) + 1);
+    offset[0] = 0;
+    for (const Piece& piece : pieces)
+        for (std::size_t i = 0; i < piece.size.size(); ++i)
+            offset[piece.begin + i + 1] = offset[piece.begin + i] + piece.size[i];
+    return offset;
+}
+
 void transpose(Multigrid::Level& level, Index coarse) {
     level.r_offset.assign(static_cast<std::size_t>(coarse) + 1, 0);
     for (const Index c : level.p_column) ++level.r_offset[c + 1];
@@ -133,11 +142,7 @@ void make_prolongation(Multigrid::Level& level, const Groups& groups) {
             piece.size.push_back(static_cast<Index>(piece.column.size() - from));
         }
     });
-    level.p_offset.resize(static_cast<std::size_t>(level.rows) + 1);
-    level.p_offset[0] = 0;
-    for (const Piece& piece : pieces)
-        for (std::size_t i = 0; i < piece.size.size(); ++i)
-            level.p_offset[piece.begin + i + 1] = level.p_offset[piece.begin + i] + piece.size[i];
+    level.p_offset = offsets_of(pieces, level.rows);
     level.p_column.resize(level.p_offset.back());
     level.p.resize(level.p_offset.back());
     for (const Piece& piece : pieces) {
@@ -188,11 +193,7 @@ Multigrid::Level coarse_level(const Multigrid::Level& fine, Index rows) {
             piece.size.push_back(size);
         }
     });
-    coarse.offset.resize(static_cast<std::size_t>(rows) + 1);
-    coarse.offset[0] = 0;
-    for (const Piece& piece : pieces)
-        for (std::size_t i = 0; i < piece.size.size(); ++i)
-            coarse.offset[piece.begin + i + 1] = coarse.offset[piece.begin + i] + piece.size[i];
+    coarse.offset = offsets_of(pieces, rows);
     coarse.column.resize(coarse.offset.back());
     coarse.stiffness.resize(coarse.offset.back());
     coarse.mass.resize(coarse.offset.back());
