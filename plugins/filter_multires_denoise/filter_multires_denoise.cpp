@@ -17,9 +17,10 @@ DenoiseOptions denoise_defaults(const Layer* layer) {
 
 void bind_threshold(Parameters& p, DenoiseOptions& o) {
     const char* group = "Threshold";
-    p.add("threshold_unit", Choice(o.unit, {"automatic", "mesh units", "percent"}), "Threshold",
+    p.add("threshold_unit", Choice(o.unit, {"automatic", "mesh units", "percent", "share"}), "Threshold",
           "Automatic: from the noise found in the mesh. Mesh units, or percent of the diagonal of the bounding box: "
-          "the value below.")
+          "the value below. Share, for the threshold methods: the value below is the percentage of the details that "
+          "goes, the shortest of all levels chosen.")
         .in(group);
     p.add("threshold", &o.threshold, "Threshold value",
           "Size of the noise if the threshold is not automatic: its standard deviation for automatic and normal "

@@ -47,6 +47,26 @@ TEST(DenoiseThreshold, ZeroGivesTheInputBack) {
     }
 }
 
+TEST(DenoiseThreshold, AShareOfTheDetailsGoes) {
+    const Mesh mesh = noisy_scan(0.2);
+    for (DenoiseOptions options : every_way()) {
+        options.unit = ThresholdUnit::share;
+        options.coarsest_level = options.finest_level + 1;  // the report gives shares by level
+        options.threshold = 0;
+        EXPECT_LE(largest_distance(denoised(mesh, options), mesh.positions), 1e-12);
+        for (const double percent : {20.0, 50.0, 100.0}) {
+            options.threshold = percent;
+            // of 920 details or more, up to one
+            EXPECT_NEAR(series(report_of(mesh, options), "share_zeroed")[0], percent / 100, 1.1 / 920);
+        }
+        options.threshold = 101;
+        EXPECT_THROW(denoised(mesh, options), InputError);
+    }
+    DenoiseOptions other;
+    other.unit = ThresholdUnit::share;
+    EXPECT_THROW(denoised(mesh, other), InputError);
+}
+
 TEST(DenoiseThreshold, AHugeOneRemovesTheLevels) {
     const Mesh mesh = noisy_scan(0.2);
     for (DenoiseOptions options : every_way()) {

@@ -20,6 +20,9 @@ namespace {
 void check(const DenoiseOptions& o) {
     require(std::isfinite(o.threshold) && o.threshold >= 0, "threshold must be a number, 0 or more");
     require(std::isfinite(o.strength) && o.strength >= 0, "strength must be a number, 0 or more");
+    const bool thresholds = o.method == DenoiseMethod::soft_threshold || o.method == DenoiseMethod::hard_threshold;
+    require(o.unit != ThresholdUnit::share || (thresholds && o.threshold <= 100),
+            "threshold_unit share needs a threshold method, and a threshold of at most 100 percent");
     require(o.finest_level >= 0, "finest_level must be 0 or more");
     require(o.coarsest_level > o.finest_level, "coarsest_level must be more than finest_level");
     require(o.cycle_spins >= 1 && o.cycle_spins <= 64, "cycle_spins must be between 1 and 64");

@@ -26,6 +26,7 @@ enum class ThresholdUnit {
     automatic,  ///< from the noise found in the mesh and the risk (denoise_threshold.h); `threshold` is not used
     length,     ///< mesh units
     percent,    ///< of the diagonal of the bounding box: 1 = 1 %
+    share,      ///< thresholding: percent of the details of the levels chosen, the shortest (Szczesna 2011, Figure 13)
 };
 
 struct DenoiseOptions {

@@ -1,5 +1,6 @@
 #include "filters/shape/denoise_threshold.h"
 
+#include "base/median.h"
 #include "base/reduce.h"
 #include "filters/shape/denoise_threshold_risk.h"
 #include "schemes/sure.h"
@@ -51,6 +52,17 @@ public:
                                                      deviation * gains[k][b], rule()));
             }
         return t;
+    }
+
+    /// The length that a share of the details of all subbands chosen do not exceed.
+    double of_share(const Coefficients& c, double share) const {
+        std::vector<double> all;
+        for (int k = first(); k < last(c); ++k)
+            for (const Subband& band : c.level[k]) {
+                const std::vector<double> more = lengths(band);
+                all.insert(all.end(), more.begin(), more.end());
+            }
+        return share > 0 && !all.empty() ? lower_quantile(all, share) : 0;
     }
 
     struct Shrunk {
@@ -129,8 +141,9 @@ Outcome with_given(const Pyramid& pyramid, const Positions& positions, const Den
     for (std::vector<Subband>& level : c.level)
         for (Subband& band : level) widen(band);
     const Thresholding thresholding(pyramid, positions, options, options.normal_only);
+    const double threshold = options.unit == ThresholdUnit::share ? thresholding.of_share(c, given / 100) : given;
     Thresholds t;
-    for (const std::vector<Subband>& level : c.level) t.emplace_back(level.size(), given);
+    for (const std::vector<Subband>& level : c.level) t.emplace_back(level.size(), threshold);
     Outcome out;
     tell_thresholds(t, 1, thresholding, thresholding.last(c), out);
     Thresholding::Shrunk shrunk = thresholding.shrunk(std::move(c), t, 1, confidence);

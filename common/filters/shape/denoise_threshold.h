@@ -13,7 +13,7 @@ namespace multires {
 /// the least estimated risk for its details (schemes/sure.h); all of them are then scaled by the factor for which the
 /// surface itself is expected to be nearest to the truth, its differences along edges and its positions alike
 /// (denoise_threshold_risk.h). If none is expected to be clearly nearer than the input, it stays as it is.
-/// @param given       threshold in mesh units, unless automatic
+/// @param given       threshold in mesh units or percent of the details, unless automatic
 /// @param confidence  #V or empty: each detail's threshold is scaled by 1 - confidence of its vertex
 /// @returns  #V positions
 Positions by_threshold(const Layer& layer, const DenoiseOptions& options, double given,
