@@ -4,7 +4,7 @@
 
 #include "fixtures.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 
 #include <cmath>
 #include <limits>
@@ -57,17 +57,22 @@ struct BandsLeft {
     double residual;  ///< RMS of what is neither, in RMS of the high component
 
     BandsLeft(const shapes::BandedSphere& sphere, const Positions& after) {
-        const auto n = static_cast<Eigen::Index>(after.size());
-        Eigen::MatrixXd basis(n, 3);
-        Eigen::VectorXd radius(n);
-        for (Eigen::Index i = 0; i < n; ++i) {
-            basis.row(i) << 1, sphere.low[i], sphere.high[i];
-            radius[i] = after[i].norm();
+        Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+        Vec3 products = Vec3::Zero();
+        const auto basis = [&](std::size_t i) { return Vec3(1, sphere.low[i], sphere.high[i]); };
+        for (std::size_t i = 0; i < after.size(); ++i) {
+            squares += basis(i) * basis(i).transpose();
+            products += after[i].norm() * basis(i);
         }
-        const Eigen::VectorXd x = basis.colPivHouseholderQr().solve(radius);
+        const Vec3 x = squares.inverse() * products;
         low = x[1];
         high = x[2];
-        residual = (radius - basis * x).norm() / basis.col(2).norm();
+        double rest = 0;
+        for (std::size_t i = 0; i < after.size(); ++i) {
+            const double missed = after[i].norm() - x.dot(basis(i));
+            rest += missed * missed;
+        }
+        residual = std::sqrt(rest / squares(2, 2));
     }
 };
 
