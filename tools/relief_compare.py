@@ -16,7 +16,7 @@ import pymeshlab
 
 import measuring
 
-SEEDS = [11, 12, 13, 14]  # none of those that the rule for the band was found on (1 to 4)
+SEEDS = [11, 12, 13, 14]  # none of those that the rule for the band was found on
 LETTER = 0.03  # mm: a vertex this deep belongs to a letter
 
 
@@ -84,6 +84,10 @@ def shape_index(v, f, scale, steps):
     return quadric(v, f, scale, steps, "Shape Index")
 
 
+def gaussian_curvature(v, f, scale, steps):
+    return quadric(v, f, scale, steps, "Gaussian Curvature")
+
+
 def occlusion(v, f, rays):
     ms = fresh(v, f)
     ms.compute_scalar_ambient_occlusion(rays=rays)
@@ -92,12 +96,21 @@ def occlusion(v, f, rays):
 
 METHODS = {
     "relief, no parameter": (ours, [{}]),
-    "relief, best band": (ours, [{"finest": s, "coarsest": c} for s, c in ((4, 8), (4, 12), (6, 12), (8, 16))]),
+    "relief, best band": (ours, [{"finest": s, "coarsest": c} for s, c in ((3, 6), (4, 8), (5, 10), (6, 12))]),
+    "relief, linear, no parameter": (ours, [{"robust": False}]),
+    "relief, linear, best band": (
+        ours,
+        [{"robust": False, "finest": s, "coarsest": c} for s, c in ((4, 8), (4, 12), (6, 12), (8, 16))],
+    ),
     "ambient occlusion": (occlusion, [{"rays": n} for n in (64, 256)]),
     "height over Laplacian smoothing": (laplacian, [{"steps": n} for n in (30, 100, 300)]),
-    "mean curvature, quadric": (quadric, [{"scale": 2, "steps": n} for n in (0, 30)]),
-    "shape index": (shape_index, [{"scale": 2, "steps": n} for n in (0, 30)]),
-    "mean curvature, APSS": (apss, [{"scale": s, "steps": 30} for s in (2, 4)]),
+    "mean curvature, quadric": (quadric, [{"scale": s, "steps": n} for s in (1, 2, 3, 4) for n in (0, 10, 30)]),
+    "Gaussian curvature, quadric": (
+        gaussian_curvature,
+        [{"scale": s, "steps": n} for s in (2, 3, 4) for n in (0, 10, 30)],
+    ),
+    "shape index, quadric": (shape_index, [{"scale": s, "steps": n} for s in (1, 2, 3, 4) for n in (0, 10, 30)]),
+    "mean curvature, APSS": (apss, [{"scale": s, "steps": n} for s in (2, 4, 8) for n in (0, 10, 30)]),
 }
 
 

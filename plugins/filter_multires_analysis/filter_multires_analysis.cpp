@@ -91,6 +91,10 @@ void bind_relief(Parameters& p, ReliefRow& o) {
           "coarsest.")
         .at_least(0)
         .in("Band");
+    p.add("robust", &o.robust, "Robust",
+          "The low pass does not give way to what is cut or raised (after ISO 16610-71): depths come out larger, and "
+          "without a wall around strokes. Off: a linear low pass, calibrated.")
+        .in("Band");
     bind_order(p, o.order, "Band");
     p.add("color", &o.color, "Colour", "Colour the vertices, too: blue is deep, grey level, red high.").in("Result");
 }

@@ -137,6 +137,13 @@ TEST(FeatureLines, SmoothShapesHaveNone) {
         }
 }
 
+TEST(FeatureLines, ThinRodsHaveNone) {
+    // Bends of 33 degrees along the whole rod: as much at every edge, so that none is a line.
+    const Mesh rod = shapes::open_cylinder(11, 60, 1, 30);
+    for (const double noise : {0.0, 0.05})
+        EXPECT_LT(count(lines_of(noisy(rod, noise, 5)).report, "vertices"), 0.05 * rod.positions.size()) << noise;
+}
+
 TEST(FeatureLines, DoNotDependOnTheWindingOfFaces) {
     Mesh mesh = noisy(shapes::block(15), 0.05, 4);
     const Result here = lines_of(mesh);

@@ -51,6 +51,7 @@ TEST(Relief, OfAWaveIsTheWaveInMeshUnits) {
     const auto sphere = shapes::banded_sphere({10000, 4, 40, 0.0, 0.002, {0.3, 0, 1}});
     ReliefOptions o;
     o.coarsest = 4 * 2 * 3.14159 / 40.5;
+    o.robust = false;
     const Result r = relief_of(layer_of(sphere.mesh), o);
     std::vector<double> error(sphere.high.size());
     for (std::size_t i = 0; i < error.size(); ++i) error[i] = (*r.quality)[i] - sphere.high[i];
@@ -69,6 +70,27 @@ TEST(Relief, TheBandIsThatOfTheLetters) {
         EXPECT_GT(number(r.report, "coarsest"), 6) << seed;
         EXPECT_LT(number(r.report, "coarsest"), 18) << seed;
         EXPECT_LT(number(r.report, "skewness"), -0.2) << seed;
+    }
+}
+
+TEST(Relief, RobustLowPassesShowTheDepthOfLetters) {
+    for (const std::uint64_t seed : {27, 28}) {
+        const auto stone = small_stone(seed);
+        ReliefOptions o;
+        o.coarsest = 8;
+        const auto depth = [&](bool robust) {
+            o.robust = robust;
+            const Result r = relief_of(layer_of(stone.mesh), o);
+            double deep = 0, count = 0;
+            for (std::size_t i = 0; i < stone.cut.size(); ++i)
+                if (stone.cut[i] > 0.25) deep -= (*r.quality)[i], ++count;
+            return std::pair(deep / count, auc(*r.quality, stone.cut));
+        };
+        const auto [robust, told] = depth(true);
+        const auto [linear, told_linear] = depth(false);
+        EXPECT_GT(robust, 0.79 * 0.275) << seed;
+        EXPECT_GT(robust, 1.2 * linear) << seed;
+        EXPECT_GT(told, told_linear + 0.01) << seed;
     }
 }
 

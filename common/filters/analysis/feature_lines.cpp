@@ -32,7 +32,12 @@ Vec3 around(Index vertex, const Vec3& like, const Incidence& at, const Array<Vec
     return sum.isZero() ? like : sum;
 }
 
-/// The least of the angles, degrees; 0 beside faces without a normal.
+/// Of the bend around an edge, the share that is at the edge: a third to a half on a surface that is curved evenly, all
+/// of it at a crease. Edges count from the first on, and fully from the second.
+constexpr double even_share = 0.55, crease_share = 0.8;
+
+/// The least of the angles, degrees, less where the surface bends beside the edge as well; 0 beside faces without a
+/// normal.
 double weight_of(const MeshEdge& e, const Faces& faces, const Incidence& at, const Array<Vec3>& normal) {
     Vec3 n[2] = {normal[e.face[0]], normal[e.face[1]]};
     if (n[0].isZero() || n[1].isZero()) return 0;
@@ -44,7 +49,8 @@ double weight_of(const MeshEdge& e, const Faces& faces, const Incidence& at, con
     const Index across[2] = {faces[e.face[0]][(e.corner[0] + 2) % 3], faces[e.face[1]][(e.corner[1] + 2) % 3]};
     const double far =
         degrees_between(around(across[0], n[0], at, normal, 1), around(across[1], n[1], at, normal, turn));
-    return std::min(near, far);
+    if (!(near > 0 && far > 0)) return 0;
+    return std::min(near, far) * std::clamp((near / far - even_share) / (crease_share - even_share), 0.0, 1.0);
 }
 
 }  // namespace

@@ -18,7 +18,8 @@ struct FeatureLineOptions {
 /// the least of the angles between
 /// - the normals of its two faces, denoised (normals/normal_field.h), and
 /// - those around the two vertices across it, denoised, each the mean of the faces that look about the way of the
-///   edge's face on that side: noise does not persist that far, and a curve bends less near by.
+///   edge's face on that side: noise does not persist that far;
+/// and less if the first is no more than about half of the second, as on tightly curved parts without a crease.
 /// Edges with other than two faces are no features. Replaces the selection of edges (for `features` of a pyramid) or
 /// vertices.
 /// @throws InputError  naming the parameter; see require_usable

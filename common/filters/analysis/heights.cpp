@@ -3,6 +3,7 @@
 #include "base/angles.h"
 #include "base/parallel.h"
 #include "base/reduce.h"
+#include "filters/analysis/robust_heights.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
@@ -67,6 +68,25 @@ void require_carried(const NamedLimit& limit, double mean_edge) {
     throw InputError(message.str());
 }
 
+/// Takes what a robust low pass holds off raw heights, and their noise.
+void make_robust(const Spline& spline, const TextureBand& band, const Array<Vec3>& normal, Heights& heights,
+                 const Progress& progress) {
+    const std::size_t n = heights.height.size();
+    const std::vector<double> base = robust_base(spline, heights.height, vertex_areas(heights.reference), band.order,
+                                                 band.coarsest.wavelength, progress.part(0, 0.8));
+    if (band.finest.wavelength > 0) {
+        const Array<double> raw(heights.height.begin(), heights.height.end());
+        Array<double> fine(n);
+        spline.low_pass({band.order, band.finest.wavelength}, ConstRows(raw, 1), Rows(fine, 1), band.finest.parameter,
+                        progress.part(0.8, 1));
+        heights.height.assign(fine.begin(), fine.end());
+    }
+    parallel_for(static_cast<Index>(n), [&](Index i) {
+        heights.height[i] -= base[i];
+        heights.reference.positions[i] += base[i] * normal[i];
+    });
+}
+
 }  // namespace
 
 Heights heights_over_low_pass(const Spline& spline, const Mesh& mesh, const TextureBand& band,
@@ -86,13 +106,15 @@ Heights heights_over_low_pass(const Spline& spline, const Mesh& mesh, const Text
     pass(spline, band.coarsest, low, 0);
     const Mesh smooth{feet(mesh.positions, low, vertex_normals(mesh.faces, low)), mesh.faces};
     const Spline there(smooth, {}, progress.part(0.25, 0.5));
-    if (band.finest.wavelength > 0) pass(there, band.finest, fine, 0.5);
-    pass(there, band.coarsest, low, 0.75);
+    const Progress last = progress.part(0.75, 1);
+    if (band.finest.wavelength > 0 && !band.robust) pass(there, band.finest, fine, 0.5);
+    pass(there, band.coarsest, low, band.robust ? 0.5 : 0.75);
     const Array<Vec3> normal = vertex_normals(mesh.faces, low);
     Heights out;
     out.reference = {feet(mesh.positions, low, normal), mesh.faces};
     out.height.resize(fine.size());
     parallel_for(static_cast<Index>(fine.size()), [&](Index i) { out.height[i] = normal[i].dot(fine[i] - low[i]); });
+    if (band.robust) make_robust(there, band, normal, out, last);
     return out;
 }
 

@@ -28,12 +28,14 @@ struct NamedLimit {
 struct TextureBand {
     LowPassOrder order = LowPassOrder::gaussian;
     NamedLimit finest, coarsest;
+    bool robust = false;  ///< the low pass at the coarse limit does not give way to what is cut or raised
 };
 
 /// Heights of the low pass at `finest` over that at `coarsest`, along the normals of the latter.
 ///
 /// The metric of a rough surface is that of its flanks, which makes waves longer than they are seen from afar. So the
-/// low passes are taken twice, the second time with the metric of what the vertices stand on after the first.
+/// low passes are taken twice, the second time with the metric of what the vertices stand on after the first. If the
+/// band is robust, robust_base() of the heights is then taken off them (analysis/robust_heights.h).
 /// @param spline  of the mesh
 /// @throws InputError  as Spline::low_pass
 Heights heights_over_low_pass(const Spline& spline, const Mesh& mesh, const TextureBand& band,

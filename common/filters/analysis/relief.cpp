@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "base/reduce.h"
 #include "filters/analysis/heights.h"
+#include "filters/analysis/powers.h"
 #include "filters/analysis/scale_space.h"
 #include "filters/calibration.h"
 #include "measure/vertex_normals.h"
@@ -18,22 +19,8 @@ namespace {
 
 constexpr double tolerance = 1e-2;  ///< of each band: a choice needs no more
 
-/// Weighted sums of powers.
-struct Powers {
-    double weight = 0, first = 0, second = 0, third = 0;
-    Powers& operator+=(const Powers& o) {
-        weight += o.weight, first += o.first, second += o.second, third += o.third;
-        return *this;
-    }
-    void add(double w, double x) { *this += {w, w * x, w * x * x, w * x * x * x}; }
-
-    double skewness() const {
-        if (!(weight > 0)) return 0;
-        const double m = first / weight, square = second / weight, variance = square - m * m;
-        if (!(variance > 1e-12 * square)) return 0;
-        return (third / weight - 3 * m * square + 2 * m * m * m) / std::pow(variance, 1.5);
-    }
-};
+/// Strokes pull a low pass with them that is not robust: that needs a longer limit to tell them from the rest.
+constexpr double robust_share = 0.8;
 
 /// Where the skewness of heights is largest: the mean of the cutoffs' logarithms by its eighth power, over those that
 /// are skewed to the side of the most skewed. Nothing if none is.
@@ -68,13 +55,14 @@ std::optional<double> most_skewed(const Spline& spline, const Layer& layer, cons
 TextureBand band_of(const Spline& spline, const Layer& layer, const ReliefOptions& o, const Progress& progress,
                     Report& report) {
     TextureBand band;
-    band.order = o.order;
+    band.order = o.order, band.robust = o.robust;
     if (o.coarsest) {
         band.finest = {o.finest, "finest"}, band.coarsest = {*o.coarsest, "coarsest"};
         return band;
     }
     const double shortest = 2 * spline.mean_edge();
-    const double coarsest = most_skewed(spline, layer, progress).value_or(4 * shortest), finest = coarsest / 2;
+    const double skewed = most_skewed(spline, layer, progress).value_or(4 * shortest);
+    const double coarsest = std::max(o.robust ? robust_share * skewed : skewed, shortest), finest = coarsest / 2;
     band.coarsest = {coarsest, "coarsest"};
     // A fine limit that is just that of the mesh (by rounding, or not) makes no difference: none.
     band.finest = {o.finest > 0 ? o.finest : finest > 1.001 * shortest ? finest : 0, "finest"};

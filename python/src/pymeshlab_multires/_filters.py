@@ -787,7 +787,8 @@ def roughness(
 
 
 def relief(
-    ms: MeshSet, *, coarsest: float = 0.0, finest: float = 0.0, order: Order = "2", color: bool = False,
+    ms: MeshSet, *, coarsest: float = 0.0, finest: float = 0.0, robust: bool = True, order: Order = "2",
+    color: bool = False,
 ) -> ReliefReport:
     """Signed height over the low pass as vertex quality, in mesh units: carvings, tool marks, wear.
 
@@ -801,6 +802,8 @@ def relief(
             strokes. At least two mean edges; 0: the band is chosen from the mesh. A number, at least 0.
         finest: Mesh units: shorter waves are left out as noise. At least two mean edges; 0: all count, or chosen with
             the coarsest. A number, at least 0.
+        robust: The low pass does not give way to what is cut or raised (after ISO 16610-71): depths come out larger,
+            and without a wall around strokes. Off: a linear low pass, calibrated.
         order: How steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 + s^2) (ISO
             16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
         color: Colour the vertices, too: blue is deep, grey level, red high.
