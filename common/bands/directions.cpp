@@ -13,7 +13,9 @@ Vec3 area_vector(const Face& f, const Positions& p) { return (p[f[1]] - p[f[0]])
 
 /// cos^2 of the largest turn of a face.
 constexpr double least_cosine_square = 0.5;
-constexpr int most_halvings = 20;
+/// What a step leaves of the part along the surface where faces turn too far, and how near neighbours follow.
+constexpr double kept = 0.7, followed = 0.1;
+constexpr int most_steps = 30;
 
 /// The area vector of each face and those of all faces around its corners, summed.
 struct FaceVectors {
@@ -83,17 +85,17 @@ void move_along_normals(const Mesh& mesh, const Stiffness& neighbours, Positions
         along[i] = normal[i].isZero() ? Vec3(Vec3::Zero()) : Vec3(d - normal[i].dot(d) * normal[i]);
         moved[i] = smooth[i] - along[i];
     });
-    Array<double> share(smooth.size(), 1), halved(smooth.size());
+    Array<double> share(smooth.size(), 1), less(smooth.size());
     const Array<Vec3> to = upright(mesh.faces, mesh.positions, smooth);
     Array<std::uint8_t> bad_face(mesh.faces.size()), bad(smooth.size());
-    for (int step = 0; step < most_halvings && mark_turned(mesh.faces, to, moved, bad_face, bad); ++step) {
-        parallel_for(n, [&](Index i) { halved[i] = bad[i] ? share[i] / 2 : share[i]; });
+    for (int step = 0; step < most_steps && mark_turned(mesh.faces, to, moved, bad_face, bad); ++step) {
+        parallel_for(n, [&](Index i) { less[i] = bad[i] ? kept * share[i] : share[i]; });
         parallel_for(n, [&](Index i) {
             double sum = 0;
             const Index begin = neighbours.offset[i], end = neighbours.offset[i + 1];
-            for (Index k = begin; k < end; ++k) sum += halved[neighbours.column[k]];
-            const double mean = begin < end ? sum / (end - begin) : halved[i];
-            share[i] = std::min(halved[i], (halved[i] + mean) / 2);
+            for (Index k = begin; k < end; ++k) sum += less[neighbours.column[k]];
+            const double mean = begin < end ? sum / (end - begin) : less[i];
+            share[i] = std::min(less[i], less[i] + followed * (mean - less[i]));
             moved[i] = smooth[i] - share[i] * along[i];
         });
     }
