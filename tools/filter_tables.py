@@ -25,6 +25,8 @@ FUNCTIONS = {
     "apply_coord_multires_displace": "move_region",
     "compute_scalar_multires_falloff_per_vertex": "falloff_to_quality",
     "generate_multires_base": "smooth_base_as_layer",
+    "apply_coord_multires_bands": "multiband_edit",
+    "transfer_coord_multires_detail": "detail_from_layer",
     "apply_attributes_multires_relaxation": "relax_attributes",
     "apply_attributes_multires_band": "filter_attributes",
     "apply_attributes_multires_band_custom": "filter_custom_attributes",

@@ -88,6 +88,15 @@ def edited(v, f):
     return ms
 
 
+def remeshed(v, f):
+    """Two layers: the mesh, and on top a remeshed and smoothed copy."""
+    ms = document(v, f)
+    ms.generate_copy_of_current_mesh()
+    ms.meshing_isotropic_explicit_remeshing(iterations=3, targetlen=pymeshlab.PercentageValue(0.5))
+    ms.apply_coord_taubin_smoothing(stepsmoothnum=60)
+    return ms
+
+
 def head(v, f):
     """The mesh with its head selected."""
     ms = document(v, f)
@@ -216,6 +225,15 @@ PAIRS = {
     ),
     "compute_scalar_multires_falloff_per_vertex": (head, shaded, "", {"falloff": 0.05}, quality, "around the head"),
     "generate_multires_base": (document, shaded, "", {"vertices": 400}, shaded, "through 400 vertices"),
+    "apply_coord_multires_bands": (
+        document,
+        shaded,
+        "",
+        {"gain_1": 0, "gain_2": 2.5, "gain_3": 2, "vertices": 400},
+        shaded,
+        "gains 0 2.5 2 1 over a base of 400 vertices",
+    ),
+    "transfer_coord_multires_detail": (remeshed, shaded, "remeshed and smoothed", {}, shaded, "with the detail of the scan"),
     "apply_attributes_multires_relaxation": (
         with_colors,
         painted,

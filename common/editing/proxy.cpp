@@ -1,5 +1,6 @@
 #include "editing/proxy.h"
 
+#include "base/blocks.h"
 #include "base/parallel.h"
 #include "measure/distance.h"
 
@@ -176,20 +177,16 @@ Array<Foot> feet_of(const Positions& points, const Faces& faces, const Positions
     const SurfaceTree tree(faces, positions);
     const auto count = static_cast<Index>(points.size());
     Array<Foot> feet(count);
-    constexpr Index grain = 1024, block = 16 * grain;  // a report after each block
-    for (Index first = 0; first < count; first += block) {
-        progress.report(0.1 + 0.9 * first / count, "Binding vertices to the proxy");
-        parallel_chunks(std::min(block, count - first), grain, [&](Index begin, Index end) {
-            Index hint = -1;
-            for (Index i = first + begin; i < first + end; ++i) {
-                const SurfaceTree::Hit hit = tree.closest(points[i], hint);
-                const Face& f = faces[hit.face];
-                feet[i] = {hit.face, closest_weights(points[i], positions[f[0]], positions[f[1]], positions[f[2]]),
-                           hit.squared};
-                hint = hit.face;
-            }
-        });
-    }
+    parallel_blocks(count, progress.part(0.1, 1), "Binding vertices to the proxy", [&](Index begin, Index end) {
+        Index hint = -1;
+        for (Index i = begin; i < end; ++i) {
+            const SurfaceTree::Hit hit = tree.closest(points[i], hint);
+            const Face& f = faces[hit.face];
+            feet[i] = {hit.face, closest_weights(points[i], positions[f[0]], positions[f[1]], positions[f[2]]),
+                       hit.squared};
+            hint = hit.face;
+        }
+    });
     return feet;
 }
 

@@ -1,6 +1,6 @@
 #include "editing/wrap.h"
 
-#include "base/parallel.h"
+#include "base/blocks.h"
 #include "base/reduce.h"
 #include "measure/distance.h"
 #include "measure/measure.h"
@@ -15,13 +15,9 @@ namespace {
 Positions ways_to(const SurfaceTree& tree, const Positions& at, const Progress& progress) {
     const auto count = static_cast<Index>(at.size());
     Positions way(at.size());
-    constexpr Index grain = 1024, block = 16 * grain;  // a report after each block
-    for (Index first = 0; first < count; first += block) {
-        progress.report(static_cast<double>(first) / count, "Wrapping a level onto the edited layer");
-        parallel_chunks(std::min(block, count - first), grain, [&](Index begin, Index end) {
-            for (Index i = first + begin; i < first + end; ++i) way[i] = tree.closest(at[i]).point - at[i];
-        });
-    }
+    parallel_blocks(count, progress, "Wrapping a level onto the edited layer", [&](Index begin, Index end) {
+        for (Index i = begin; i < end; ++i) way[i] = tree.closest(at[i]).point - at[i];
+    });
     return way;
 }
 

@@ -155,6 +155,60 @@ SurfaceTree::Hit SurfaceTree::closest(const Vec3& p, Index hint) const {
     return hit;
 }
 
+/// The least |at| at which the line is in the box; infinite if nowhere.
+double SurfaceTree::nearest_in_box(const Node& node, const Vec3& p, const Vec3& direction) const {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    double begin = -inf, end = inf;
+    for (int k = 0; k < 3; ++k) {
+        const double low = node.low[k] - p[k], high = node.high[k] - p[k];
+        if (!(low <= high)) return inf;  // an empty leaf
+        if (direction[k] == 0) {
+            if (low > 0 || high < 0) return inf;
+            continue;
+        }
+        const double a = low / direction[k], b = high / direction[k];
+        begin = std::max(begin, std::min(a, b)), end = std::min(end, std::max(a, b));
+    }
+    if (begin > end) return inf;
+    return begin <= 0 && end >= 0 ? 0 : std::min(std::abs(begin), std::abs(end));
+}
+
+SurfaceTree::Crossing SurfaceTree::nearest_crossing(const Vec3& p, const Vec3& direction, double within) const {
+    Crossing best;
+    double most = within;
+    const Vec3 q = p - centre_;
+    const auto meet = [&](Index face) {
+        constexpr double rounding = -1e-9;  // of barycentric weights: neighbours overlap rather than gape
+        const Face& f = faces_[face];
+        const Vec3 a = positions_[f[0]] - p, ab = positions_[f[1]] - positions_[f[0]],
+                   ac = positions_[f[2]] - positions_[f[0]];
+        const Vec3 n = ab.cross(ac);
+        const double along = n.dot(direction);
+        if (!(along > 1e-6 * n.norm())) return;
+        const Vec3 across = direction.cross(a);
+        const double u = -ac.dot(across) / along, v = ab.dot(across) / along, at = n.dot(a) / along;
+        if (u < rounding || v < rounding || u + v > 1 - rounding || !(std::abs(at) <= most)) return;
+        if (best.face >= 0 && std::abs(at) == most) return;
+        best = {at, face};
+        most = std::abs(at);
+    };
+    std::array<Index, 64> stack;
+    int top = 0;
+    stack[top++] = 0;
+    while (top > 0) {
+        const Index node = stack[--top];
+        if (nearest_in_box(node_[node], q, direction) > most) continue;
+        if (node < first_leaf_) {
+            stack[top++] = 2 * node + 2, stack[top++] = 2 * node + 1;
+            continue;
+        }
+        const Index begin = (node - first_leaf_) * leaf_faces;
+        const Index end = std::min(static_cast<Index>(order_.size()), begin + leaf_faces);
+        for (Index i = begin; i < end; ++i) meet(order_[i]);
+    }
+    return best;
+}
+
 SurfaceSamples sample_surface(const Faces& faces, const Positions& positions, double spacing) {
     SurfaceSamples s;
     std::vector<double> vertex_weight(positions.size(), 0);

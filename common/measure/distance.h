@@ -27,11 +27,24 @@ public:
     /// Cost: O(log #F) for points near the surface, far less with a good hint.
     Hit closest(const Vec3& p, Index hint = -1) const;
 
+    /// Where a line through p meets the surface.
+    struct Crossing {
+        double at = std::numeric_limits<double>::infinity();  ///< p + at x direction
+        Index face = -1;                                      ///< -1: nowhere
+    };
+
+    /// The crossing nearest to p with a face whose normal points along the direction, not against it.
+    /// @param direction  of length 1
+    /// @param within     the most that |at| may be, mesh units
+    /// Cost: O(log #F), and as many faces as the line passes closer to p than the crossing.
+    Crossing nearest_crossing(const Vec3& p, const Vec3& direction, double within) const;
+
 private:
     struct Node {
         Eigen::Vector3f low, high;  ///< rounded outwards
     };
     void visit(Index face, const Vec3& p, Hit& hit) const;
+    double nearest_in_box(const Node& node, const Vec3& p, const Vec3& direction) const;
 
     const Faces& faces_;
     const Positions& positions_;

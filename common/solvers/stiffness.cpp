@@ -24,6 +24,9 @@ constexpr double least_share = -2, most_share = 1;
 /// Chosen on jittered, flipped and graded planes, so that waves of 4 and of 6 edges are off by as little either way.
 constexpr double usual_share = 0.62;
 
+/// See bending().
+constexpr Index most_bending_neighbours = 100;
+
 constexpr FaceWeights no_face{{0, 0, 0}, -1, 0};
 
 bool can_be_squared(double square) { return square > 1e-280 && square < 1e280; }  // false for what is not a number
@@ -262,6 +265,7 @@ Stiffness bending(const Stiffness& c) {
         for (Index i = begin; i < end; ++i) {
             row.clear();
             visit_row(i, [&](Index k, double a) {
+                if (c.offset[k + 1] - c.offset[k] > most_bending_neighbours) return;
                 visit_row(k, [&](Index j, double b) { row.emplace_back(j, a * b * inverse[k]); });
             });
             std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });

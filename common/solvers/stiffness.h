@@ -66,8 +66,9 @@ void apply_stiffness(const Stiffness& c, const double* f, int width, double* out
 
 /// The matrix of the bending energy, C M^-1 C, in the same form: symmetric, semidefinite, rows that sum to 0. f' C M^-1
 /// C f is the integral of the squared Laplacian. In units of the mean mass, so that entries do not depend on scale: the
-/// matrix times the mean mass. Masses below 1e-6 of the mean count as that. About 19 entries a row. Cost: linear,
-/// parallel; same bits for any number of threads.
+/// matrix times the mean mass. Masses below 1e-6 of the mean count as that. The Laplacian at vertices of more than 100
+/// neighbours does not count: every pair of those would be an entry. About 19 entries a row. Cost: linear, parallel;
+/// same bits for any number of threads.
 Stiffness bending(const Stiffness& c);
 
 /// out = M f, the same way.

@@ -1,8 +1,10 @@
 #include "shared/bindings.h"
 #include "shared/returns.h"
 
+#include "filters/editing/bands.h"
 #include "filters/editing/move_region.h"
 #include "filters/editing/smooth_base.h"
+#include "filters/editing/transfer_detail.h"
 #include "filters/editing/transfer_edit.h"
 #include "measure/measure.h"
 
@@ -37,10 +39,14 @@ void bind_transfer_edit(Parameters& p, TransferEditOptions& o) {
         "resolution: it keeps its direction in space. None: it is left out.");
     p.add("gain", &o.gain, "Detail gain", "Factor of the detail finer than the proxy; 1 is as it is.").slider(0, 4);
     p.add(
-        "encoding", Choice(o.encoding, {"gradient", "frames"}), "Encoding",
+        "encoding", Choice(o.encoding, {"gradient", "frames", "phong"}), "Encoding",
         "Gradient: the proxy's turning and stretching is applied to the gradients of the surface, which is then put "
         "together by one linear solve; the most exact. Frames: a level of the pyramid moves, and details in frames of "
-        "coarser levels follow.");
+        "coarser levels follow. Phong: a smooth base moves, and details along smooth fields of normals follow.");
+    p.add("bands", &o.bands, "Bands",
+          "Phong only: 1 measures heights over the proxy itself; 2 to 8 put a smooth base of as many vertices as the "
+          "proxy has and that many bands less one over it.")
+        .between(1, most_bands);
     bind_region(p, o.region);
     p.add("soft_border", &o.soft_border, "Soft border",
           "Only on selection: distance from the border of the selection, mesh units, at which it takes full effect; "
@@ -51,12 +57,14 @@ void bind_transfer_edit(Parameters& p, TransferEditOptions& o) {
     bind_pyramid(p, o.pyramid);
 }
 
+int default_base_vertices(const Layer& layer, const PyramidOptions& pyramid, int share) {
+    const int all = static_cast<int>(layer.mesh.positions.size());
+    return std::min(all, std::max({all / share, 4 * pyramid.hierarchy.base_vertices, 4}));
+}
+
 SmoothBaseOptions base_defaults(const Layer* layer) {
     SmoothBaseOptions o;
-    if (layer) {
-        const int all = static_cast<int>(layer->mesh.positions.size());
-        o.vertices = std::min(all, std::max({all / 20, 4 * o.pyramid.hierarchy.base_vertices, 4}));
-    }
+    if (layer) o.vertices = default_base_vertices(*layer, o.pyramid, 20);
     return o;
 }
 
@@ -115,6 +123,69 @@ void bind_move_region(Parameters& p, MoveRegionOptions& o) {
     bind_pyramid(p, o.pyramid);
 }
 
+BandsOptions bands_defaults(const Layer* layer) {
+    BandsOptions o;
+    o.region.selected = has_selection(layer);
+    if (layer) o.vertices = default_base_vertices(*layer, o.pyramid, 50);
+    return o;
+}
+
+void bind_bands(Parameters& p, BandsOptions& o) {
+    for (std::size_t k = 0; k < o.gain.size(); ++k) {
+        const std::string number = std::to_string(k + 1);
+        p.add("gain_" + number, &o.gain[k], "Gain " + number,
+              "Factor of the detail of band " + number + (k == 0 ? ", the finest" : "") +
+                  ". There are as many bands of detail as bands less one.")
+            .slider(0, 4);
+    }
+    p.add("bands", &o.bands, "Bands", "How many bands there are, the smooth base among them.")
+        .between(2, most_bands)
+        .in("Bands");
+    p.add("levels", Choice(o.levels, {"ratio", "edge length", "equal detail"}), "Levels",
+          "How the bases follow each other. Ratio: by a constant ratio of the vertices they keep. Edge length: by one "
+          "of "
+          "the mean edge lengths of these. Equal detail: so that all bands have about the same detail.")
+        .in("Bands");
+    p.add("vertices", &o.vertices, "Vertices of the base",
+          "How many vertices the coarsest base keeps. Fewer leave more to the bands.")
+        .at_least(1)
+        .in("Bands")
+        .derived();
+    bind_region(p, o.region);
+    bind_pyramid(p, o.pyramid);
+}
+
+TransferDetailOptions transfer_detail_defaults(const Layer* layer) {
+    TransferDetailOptions o;
+    o.region.selected = has_selection(layer);
+    if (layer) o.largest_distance = 0.05 * size_of(*layer);
+    return o;
+}
+
+void bind_transfer_detail(Parameters& p, TransferDetailOptions& o) {
+    p.add("layer", &o.layer, "Detail from",
+          "The layer that has the detail: a scan near the current layer, or a copy of the current one that was "
+          "sculpted.");
+    p.add("use", Choice(o.use, {"apply", "store", "apply stored"}), "Use",
+          "Apply: the current layer takes the detail over. Store: the detail becomes a custom attribute of the current "
+          "layer, points in the frames of its vertices, and nothing moves. Apply stored: the current layer takes over "
+          "what "
+          "that attribute holds.");
+    p.add("name", &o.name, "Attribute", "Name of the custom attribute that stores the detail.");
+    p.add("gain", &o.gain, "Detail gain", "Factor of the detail; 1 brings vertices onto the other layer.").slider(0, 4);
+    p.add("largest_distance", &o.largest_distance, "Largest distance",
+          "How far along its normal, on either side, a vertex looks for the other layer, mesh units.")
+        .at_least(0)
+        .derived();
+    p.add("finest", &o.finest, "Finest", "Leave out detail of waves shorter than that, mesh units; 0 leaves none out.")
+        .at_least(0);
+    p.add("coarsest", &o.coarsest, "Coarsest",
+          "Leave out detail of waves longer than that, mesh units; 0 leaves none out.")
+        .at_least(0);
+    bind_region(p, o.region);
+    bind_pyramid(p, o.pyramid);
+}
+
 constexpr const char* cite_vorsatz = "<br>See <i>Vorsatz, Kobbelt</i>, <b>\"Robust Multi-Band Detail Encoding for "
                                      "Triangular Meshes of Arbitrary Connectivity\"</b>, VMV 1999.";
 
@@ -125,6 +196,24 @@ const Returns transfer_edit_returns{
     {"proxy_distance", Type::real, "mesh units", "Root mean square distance of the vertices to the proxy before."},
     {"folded_faces", Type::integer, "",
      "Faces that lie the other way round than the motion of the proxy near them would have it."},
+};
+
+const Returns base_point_returns{
+    {"border_points", Type::integer, "", "Base points on the boundary, where the search left the surface."},
+    {"nearest_points", Type::integer, "", "Base points that are the nearest, where no normal goes through the vertex."},
+};
+
+const Returns bands_returns{
+    {"vertices_kept", Type::list, "", "Vertices that each base keeps, finest first."},
+    {"band_detail", Type::list, "mesh units", "Root mean square length of the details of each band, finest first."},
+};
+
+const Returns transfer_detail_returns{
+    {"rms_detail", Type::real, "mesh units", "Root mean square length of the detail, with limits and gain."},
+};
+
+const Returns vertices_without_returns{
+    {"vertices_without", Type::integer, "", "Vertices that meet no other layer: they follow their neighbours."},
 };
 
 const Returns falloff_returns{
@@ -153,7 +242,8 @@ const Plugin& table() {
                              "every vertex exactly where it is.<br>") +
                      cite_guskov + cite_vorsatz,
                  MenuClass::remeshing, faces, vertex_quality, vertex_positions,
-                 transfer_edit_returns + sometimes(pyramid_returns) + change_returns},
+                 transfer_edit_returns + sometimes(bands_returns + base_point_returns) + sometimes(pyramid_returns) +
+                     change_returns},
                 transfer_edit_defaults, bind_transfer_edit, transfer_edit),
             filter({"Multiresolution: Move Region", "apply_coord_multires_displace",
                     std::string("Turns, scales and moves the selected part of a layer; the surface around it follows "
@@ -177,6 +267,25 @@ const Plugin& table() {
                      cite_vorsatz,
                  MenuClass::layer, faces, none, new_layer, base_returns + pyramid_returns},
                 base_defaults, bind_base, generate_base),
+            filter({"Multiresolution: Multiband Edit", "apply_coord_multires_bands",
+                    std::string("Splits the surface into a smooth base and bands of detail over one another, and puts "
+                                "it together with a gain for each band. Details are heights over the next coarser "
+                                "shape, along a field of normals without a jump, so they follow what coarser bands "
+                                "do.<br>") +
+                        cite_vorsatz,
+                    MenuClass::remeshing, faces, vertex_quality, vertex_positions,
+                    bands_returns + base_point_returns + pyramid_returns + change_returns},
+                   bands_defaults, bind_bands, apply_bands),
+            filter(
+                {"Multiresolution: Detail from Layer", "transfer_coord_multires_detail",
+                 std::string("Brings the detail of another layer, a scan say, onto the current one: its remesh, a "
+                             "smooth or another shape nearby. Or stores it as a custom attribute that can be applied "
+                             "later, to the same layer in another shape, as often and as strongly as wanted.<br>") +
+                     cite_vorsatz,
+                 MenuClass::remeshing, faces, vertex_quality | custom_attributes, vertex_positions | custom_attributes,
+                 transfer_detail_returns + sometimes(vertices_without_returns) + sometimes(pyramid_returns) +
+                     sometimes(change_returns)},
+                transfer_detail_defaults, bind_transfer_detail, transfer_detail),
         }};
     return plugin;
 }

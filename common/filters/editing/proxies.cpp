@@ -17,14 +17,6 @@
 namespace multires {
 namespace {
 
-void require_layer(const Layer& layer, const char* which) {
-    try {
-        require_usable(layer.mesh);
-    } catch (const InputError& e) {
-        throw InputError(std::string(which) + ": " + e.what());
-    }
-}
-
 std::string counts(const Mesh& mesh) {
     return std::to_string(mesh.positions.size()) + " vertices and " + std::to_string(mesh.faces.size()) + " faces";
 }
@@ -52,10 +44,6 @@ bool same_faces(const Faces& a, const Faces& b) {
         return all;
     };
     return sorted(a) == sorted(b);
-}
-
-bool same_connectivity(const Mesh& a, const Mesh& b) {
-    return a.positions.size() == b.positions.size() && same_faces(a.faces, b.faces);
 }
 
 /// The layer's vertices that `level` was made of, if it says so.
@@ -118,6 +106,18 @@ FoundProxy wrapped(const Layer& layer, const Pyramid& pyramid, FoundProxy found,
 }
 
 }  // namespace
+
+void require_layer(const Layer& layer, const char* which) {
+    try {
+        require_usable(layer.mesh);
+    } catch (const InputError& e) {
+        throw InputError(std::string(which) + ": " + e.what());
+    }
+}
+
+bool same_connectivity(const Mesh& a, const Mesh& b) {
+    return a.positions.size() == b.positions.size() && same_faces(a.faces, b.faces);
+}
 
 std::size_t nearest_level(const Hierarchy& h, std::size_t vertices) {
     std::size_t best = 0;

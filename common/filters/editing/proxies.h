@@ -23,6 +23,13 @@ struct FoundProxy {
     Proxy proxy() const { return {faces, before, after}; }
 };
 
+/// require_usable() for another layer.
+/// @throws InputError  beginning with the parameter that names it
+void require_layer(const Layer& layer, const char* which);
+
+/// As many vertices and the same faces, in any order and from any corner on: editors turn them.
+bool same_connectivity(const Mesh& a, const Mesh& b);
+
 /// The level with the number of vertices nearest to a number, in the logarithm.
 std::size_t nearest_level(const Hierarchy& h, std::size_t vertices);
 

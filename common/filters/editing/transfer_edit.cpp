@@ -4,6 +4,7 @@
 #include "base/reduce.h"
 #include "editing/gradient_domain.h"
 #include "editing/soft_border.h"
+#include "filters/editing/bands.h"
 #include "filters/editing/proxies.h"
 #include "mesh/validation.h"
 
@@ -16,6 +17,7 @@ namespace {
 
 void check(const TransferEditOptions& options) {
     require(std::isfinite(options.gain), "gain must be a number");
+    require(options.bands >= 1 && options.bands <= most_bands, "bands must be 1 to " + std::to_string(most_bands));
     require(options.soft_border >= 0 && std::isfinite(options.soft_border), "soft_border must be a number, 0 or more");
 }
 
@@ -57,7 +59,7 @@ public:
         require_near(layer_, found_, nearest_tenth(feet_));
         motion_ = motion_at(layer_.mesh.positions, feet_, found_.proxy(), gradients_);
         session_.progress = whole.part(0.4, 0.9);
-        Positions after = options_.encoding == Encoding::frames ? by_frames() : by_gradients();
+        Positions after = moved();
         session_.progress = whole;
         report_.add("proxy_distance", distance(), "mesh units");
         report_.add("folded_faces", folded(after));
@@ -65,6 +67,12 @@ public:
     }
 
 private:
+    Positions moved() {
+        if (options_.encoding == Encoding::frames) return by_frames();
+        if (options_.encoding == Encoding::gradient) return by_gradients();
+        return options_.bands == 1 ? over_proxy() : over_bases();
+    }
+
     bool other_details() const { return options_.gain != 1 || options_.details != DetailsFollow::multiresolution; }
 
     /// RMS distance of the vertices to the proxy.
@@ -105,10 +113,8 @@ private:
         const auto pyramid = pyramid_of(layer_, options_.pyramid, session_, report_);
         const Hierarchy& h = pyramid->hierarchy();
         const std::size_t level = nearest_level(h, found_.before.size());
-        Positions coarse = positions_of(pyramid->scheme().synthesise(pyramid->coefficients(), down_to(level)));
-        const Array<Foot> feet = feet_of(coarse, found_.faces, found_.before, session_.progress.part(0.8, 0.9));
-        const Motion motion = motion_at(coarse, feet, found_.proxy(), gradients_);
-        for (std::size_t i = 0; i < coarse.size(); ++i) coarse[i] += motion.displacement[i];
+        const Positions coarse =
+            carried(positions_of(pyramid->scheme().synthesise(pyramid->coefficients(), down_to(level))));
         const bool turn = options_.details == DetailsFollow::multiresolution;
         const Field values = field_of(coarse);
         Synthesis how = starting_at(level, values);
@@ -119,6 +125,67 @@ private:
             for (std::size_t i = 0; i < after.size(); ++i)
                 after[i] += options_.gain * (layer_.mesh.positions[i] - base[i]);
         }
+        return after;
+    }
+
+    /// Where the motion of the proxy takes a shape of the layer.
+    Positions carried(Positions shape) const {
+        const Array<Foot> feet = feet_of(shape, found_.faces, found_.before, session_.progress.part(0.8, 0.9));
+        const Motion motion = motion_at(shape, feet, found_.proxy(), gradients_);
+        for (std::size_t i = 0; i < shape.size(); ++i) shape[i] += motion.displacement[i];
+        return shape;
+    }
+
+    /// Every vertex over its base point on the proxy.
+    Positions over_proxy() {
+        const PhongSurface before(found_.faces, found_.before), after(found_.faces, found_.after);
+        Array<Index> starts(feet_.size());
+        for (std::size_t i = 0; i < feet_.size(); ++i) starts[i] = feet_[i].face;
+        BasePoints found = base_points(before, layer_.mesh.positions, starts, session_.progress);
+        report_.add("border_points", static_cast<int>(found.border));
+        report_.add("nearest_points", static_cast<int>(found.nearest));
+        const bool turn = options_.details == DetailsFollow::multiresolution;
+        const double gain = options_.details == DetailsFollow::none ? 0 : options_.gain;
+        Positions out(feet_.size());
+        parallel_for(static_cast<Index>(out.size()), [&](Index i) {
+            BasePoint& b = found.points[i];
+            const Vec3 detail = layer_.mesh.positions[i] - before.base(b.face, b.weight);
+            b.detail *= turn ? gain : 0;
+            out[i] = after.place(b) + (turn ? 0 : gain) * detail;
+        });
+        return out;
+    }
+
+    /// How many vertices of the layer a base leaves where they are.
+    Index kept_by(const Positions& base) const {
+        Index count = 0;
+        for (std::size_t i = 0; i < base.size(); ++i) count += base[i] == layer_.mesh.positions[i];
+        return count;
+    }
+
+    /// A smooth base moves, and bands of detail follow.
+    Positions over_bases() {
+        const Progress whole = session_.progress;
+        session_.progress = whole.part(0, 0.2);
+        const auto pyramid = pyramid_of(layer_, options_.pyramid, session_, report_);
+        session_.progress = whole;
+        const Hierarchy& h = pyramid->hierarchy();
+        // A smooth base of this layer has all its vertices: it is the coarsest one, and edited by hand.
+        const bool own = found_.before.size() == layer_.mesh.positions.size() && found_.faces == layer_.mesh.faces;
+        const auto coarsest = std::clamp(own ? kept_by(found_.before) : static_cast<Index>(found_.before.size()),
+                                         h.size.back(), h.vertices());
+        const std::vector<Index> kept = kept_by_bases(*pyramid, BandLevels::ratio, options_.bands - 1, coarsest);
+        const Multiband bands =
+            multiband_of(layer_.mesh, *pyramid, kept, own ? &found_.before : nullptr, whole.part(0.2, 0.8));
+        report_bands(bands, kept, report_);
+        const Positions base = own ? found_.after : carried(bands.coarsest());
+        if (options_.details != DetailsFollow::single) {
+            const double gain = options_.details == DetailsFollow::none ? 0 : options_.gain;
+            return bands.reconstruct(base, std::vector<double>(bands.bands(), gain));
+        }
+        Positions after = base;
+        for (std::size_t i = 0; i < after.size(); ++i)
+            after[i] += options_.gain * (layer_.mesh.positions[i] - bands.coarsest()[i]);
         return after;
     }
 

@@ -10,6 +10,7 @@ enum class Encoding {
     gradient,  ///< one Poisson solve for gradients turned and stretched by the proxy's motion
                ///< (editing/gradient_domain.h)
     frames,    ///< a level of the pyramid moves; details in frames of coarser levels follow (Guskov et al. 1999, 4.4)
+    phong,     ///< a smooth base moves; details along Phong fields of normals follow (Vorsatz and Kobbelt 1999)
 };
 
 /// What happens to the detail that is finer than the proxy.
@@ -28,9 +29,13 @@ struct TransferEditOptions {
     DetailsFollow details = DetailsFollow::multiresolution;
     double gain = 1;  ///< finite: factor of the detail finer than the proxy
     Encoding encoding = Encoding::gradient;
+    /// Phong: 1: heights over the proxy itself; 2 to 8: a base that keeps as many vertices as the proxy has and
+    /// bands - 1 bands of detail over it (filters/editing/bands.h). A proxy with the faces of the layer itself, as
+    /// Smooth Base as Layer makes it, is that base.
+    int bands = 5;
     Region region;
     double soft_border = 0;  ///< mesh units, >= 0: inside the selection, how far from its border it takes full effect
-    PyramidOptions pyramid;  ///< for a gain other than 1, details that do not turn, and frames
+    PyramidOptions pyramid;  ///< for a gain other than 1, details that do not turn, frames and bases
 };
 
 /// Finds what `edited` was before, in this order, and says so in the report as `way`:

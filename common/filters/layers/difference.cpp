@@ -1,10 +1,11 @@
 #include "filters/layers/difference.h"
 
-#include "base/parallel.h"
+#include "base/blocks.h"
 #include "filters/placement.h"
 #include "measure/signed_distance.h"
 #include "mesh/validation.h"
 #include "pyramid/band.h"
+#include "pyramid/with_gains.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,19 +30,15 @@ std::vector<double> distances(const Positions& points, const Layer& reference, c
     const SignedDistance surface(reference.mesh.faces, placed);
     const double out = reference.to_world.topLeftCorner<3, 3>().determinant() < 0 ? -1 : 1;
     std::vector<double> distance(points.size());
-    constexpr Index grain = 1024, block = 16 * grain;  // a report after each block
-    const auto count = static_cast<Index>(points.size());
-    for (Index first = 0; first < count; first += block) {
-        progress.report(0.3 + 0.7 * first / count, "Measuring the distance");
-        parallel_chunks(std::min(block, count - first), grain, [&](Index begin, Index end) {
-            Index hint = -1;
-            for (Index i = first + begin; i < first + end; ++i) {
-                const SignedDistance::Hit hit = surface.at(points[i], hint);
-                distance[i] = hit.distance == 0 ? 0 : out * hit.distance;
-                hint = hit.face;
-            }
-        });
-    }
+    parallel_blocks(static_cast<Index>(points.size()), progress.part(0.3, 1), "Measuring the distance",
+                    [&](Index begin, Index end) {
+                        Index hint = -1;
+                        for (Index i = begin; i < end; ++i) {
+                            const SignedDistance::Hit hit = surface.at(points[i], hint);
+                            distance[i] = hit.distance == 0 ? 0 : out * hit.distance;
+                            hint = hit.face;
+                        }
+                    });
     return distance;
 }
 
@@ -56,8 +53,7 @@ std::vector<double> low_passed(const std::vector<double>& values, const Layer& l
     Field field = Field::unset(static_cast<Index>(values.size()), 1);
     field.has_positions = false;
     std::copy(values.begin(), values.end(), field.values.begin());
-    const Coefficients details = pyramid->scheme().analyse(to_places(pyramid->hierarchy(), field));
-    const Field smooth = to_input(pyramid->hierarchy(), pyramid->scheme().synthesise(details, with_gain(gains)));
+    const Field smooth = with_gains(*pyramid, field, gains);
     return {smooth.values.begin(), smooth.values.end()};
 }
 

@@ -1,0 +1,45 @@
+#include "editing/multiband.h"
+
+#include "base/parallel.h"
+#include "base/reduce.h"
+
+#include <utility>
+
+namespace multires {
+
+Multiband::Multiband(const Mesh& mesh, std::vector<Positions> bases, const Progress& progress)
+    : faces_(mesh.faces), bases_(std::move(bases)) {
+    const Array<Index> starts = faces_to_start_from(faces_, mesh.positions.size());
+    const auto count = static_cast<double>(bases_.size());
+    for (std::size_t k = 0; k < bases_.size(); ++k) {
+        const PhongSurface base(faces_, bases_[k]);
+        const Positions& finer = k == 0 ? mesh.positions : bases_[k - 1];
+        const auto at = static_cast<double>(k);
+        BasePoints found = base_points(base, finer, starts, progress.part(at / count, (at + 1) / count));
+        border_ += found.border, nearest_ += found.nearest;
+        details_.push_back(std::move(found.points));
+    }
+}
+
+Positions Multiband::reconstruct(Positions coarsest, const std::vector<double>& gain) const {
+    Positions finer(coarsest.size());
+    for (std::size_t k = bands(); k-- > 0;) {
+        const PhongSurface base(faces_, coarsest);
+        parallel_for(static_cast<Index>(finer.size()), [&](Index i) {
+            BasePoint b = details_[k][i];
+            b.detail *= gain[k];
+            finer[i] = base.place(b);
+        });
+        std::swap(finer, coarsest);
+    }
+    return coarsest;
+}
+
+double Multiband::rms_detail(std::size_t band) const {
+    const Array<BasePoint>& all = details_[band];
+    return chunked_fold<Lengths>(all.size(),
+                                 [&](Lengths& part, std::size_t i) { part.add(all[i].detail.squaredNorm()); })
+        .rms();
+}
+
+}  // namespace multires
