@@ -16,6 +16,8 @@ Multiband::Multiband(const Mesh& mesh, std::vector<Positions> bases, const Progr
         const Positions& finer = k == 0 ? mesh.positions : bases_[k - 1];
         const auto at = static_cast<double>(k);
         BasePoints found = base_points(base, finer, starts, progress.part(at / count, (at + 1) / count));
+        for (std::size_t i = 0; i < finer.size(); ++i)
+            if (starts[i] < 0) found.points[i] = {-1, Vec3::Zero(), finer[i] - bases_[k][i], BaseKind::inside};
         border_ += found.border, nearest_ += found.nearest;
         details_.push_back(std::move(found.points));
     }
@@ -27,6 +29,10 @@ Positions Multiband::reconstruct(Positions coarsest, const std::vector<double>& 
         const PhongSurface base(faces_, coarsest);
         parallel_for(static_cast<Index>(finer.size()), [&](Index i) {
             BasePoint b = details_[k][i];
+            if (b.face < 0) {
+                finer[i] = coarsest[i] + b.detail;
+                return;
+            }
             b.detail *= gain[k];
             finer[i] = base.place(b);
         });

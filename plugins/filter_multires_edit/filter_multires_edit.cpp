@@ -126,6 +126,7 @@ void bind_move_region(Parameters& p, MoveRegionOptions& o) {
 BandsOptions bands_defaults(const Layer* layer) {
     BandsOptions o;
     o.region.selected = has_selection(layer);
+    o.gain[1] = 2;
     if (layer) o.vertices = default_base_vertices(*layer, o.pyramid, 50);
     return o;
 }
@@ -152,13 +153,14 @@ void bind_bands(Parameters& p, BandsOptions& o) {
         .in("Bands")
         .derived();
     bind_region(p, o.region);
+    bind_relative_to(p, o.relative_to);
     bind_pyramid(p, o.pyramid);
 }
 
 TransferDetailOptions transfer_detail_defaults(const Layer* layer) {
     TransferDetailOptions o;
     o.region.selected = has_selection(layer);
-    if (layer) o.largest_distance = 0.05 * size_of(*layer);
+    if (layer) o.largest_distance = 0.15 * size_of(*layer);
     return o;
 }
 
@@ -171,7 +173,7 @@ void bind_transfer_detail(Parameters& p, TransferDetailOptions& o) {
           "layer, points in the frames of its vertices, and nothing moves. Apply stored: the current layer takes over "
           "what "
           "that attribute holds.");
-    p.add("name", &o.name, "Attribute", "Name of the custom attribute that stores the detail.");
+    p.add("attribute", &o.attribute, "Attribute", "Name of the custom attribute that stores the detail.");
     p.add("gain", &o.gain, "Detail gain", "Factor of the detail; 1 brings vertices onto the other layer.").slider(0, 4);
     p.add("largest_distance", &o.largest_distance, "Largest distance",
           "How far along its normal, on either side, a vertex looks for the other layer, mesh units.")

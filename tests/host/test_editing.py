@@ -118,3 +118,34 @@ def test_a_smooth_base_can_be_edited_and_followed():
     np.testing.assert_array_equal(base.face_matrix(), ms.current_mesh().face_matrix())
     ms.apply_filter(FOLLOW, before=1, edited=2)
     np.testing.assert_allclose(ms.current_mesh().vertex_matrix(), 2 * v, atol=1e-9 * np.ptp(v))
+
+
+def test_detail_is_stored_and_applied_later():
+    ms = new_document()
+    ms.load_new_mesh(str(TEXTURED))
+    v, f = ms.current_mesh().vertex_matrix(), ms.current_mesh().face_matrix()
+    sculpted = v + 0.01 * np.ptp(v) * np.sin(9 * v[:, [1, 2, 0]] / np.ptp(v))
+    ms.add_mesh(pymeshlab.Mesh(sculpted, f))
+    ms.set_current_mesh(0)
+    before = snapshot(ms)
+    report = ms.apply_filter("transfer_coord_multires_detail", layer=1, use="store", attribute="waves")
+    assert report["rms_detail"] == pytest.approx(np.sqrt(((sculpted - v) ** 2).sum(axis=1).mean()))
+    assert ms.current_mesh().vertex_custom_point_attribute_matrix("waves").shape == v.shape
+    assert all("waves" in change or "custom" in change for change in differences(before, snapshot(ms)))
+    ms.apply_filter("transfer_coord_multires_detail", use="apply stored", attribute="waves")
+    np.testing.assert_allclose(ms.current_mesh().vertex_matrix(), sculpted, atol=1e-12 * np.ptp(v))
+    before = snapshot(ms)
+    with pytest.raises(Error, match="use: there is no attribute pores of points"):
+        ms.apply_filter("transfer_coord_multires_detail", use="apply stored", attribute="pores")
+    assert differences(before, snapshot(ms)) == []
+
+
+def test_bands_put_the_scan_together_again():
+    ms = new_document()
+    ms.load_new_mesh(str(TEXTURED))
+    before = snapshot(ms)
+    report = ms.apply_filter("apply_coord_multires_bands", gain_2=1)
+    assert differences(before, snapshot(ms)) == []
+    assert len(report["vertices_kept"]) == len(report["band_detail"]) == 4
+    report = ms.apply_filter("apply_coord_multires_bands", gain_1=2, gain_2=1, levels="equal detail")
+    assert report["rms_displacement"] == pytest.approx(report["band_detail"][0], rel=1e-6)

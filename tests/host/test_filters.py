@@ -513,6 +513,7 @@ NEUTRAL = {
     EQUALIZER: GAINS_OF_ONE,
     ENHANCE: {"relative_to": "original", "gain": 1},
     UNSHARP: {"relative_to": "original", "xi": 1},
+    "apply_coord_multires_bands": {"relative_to": "original", "gain_2": 1},
     "apply_coord_multires_denoise": {"relative_to": "original", "strength": 0},
 }
 

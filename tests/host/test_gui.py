@@ -27,6 +27,7 @@ CHANGES = {
     "apply_coord_multires_equalizer": ("slide", "Gain 1", "80"),
     "apply_coord_multires_unsharp": ("slide", "Strength", "35"),
     "apply_coord_multires_denoise": ("slide", "Strength", "40"),
+    "apply_coord_multires_bands": ("slide", "Gain 3", "90"),
 }
 
 

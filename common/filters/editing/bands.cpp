@@ -35,17 +35,19 @@ Result apply_bands(const Layer& layer, const BandsOptions& options, Session& ses
     check(options, layer.mesh);
     const std::vector<double> weights = region_weights(layer, options.region);
     Result result;
+    const Start start(layer, options.relative_to, session, result.report);
+    const Mesh& mesh = start.layer().mesh;
     const Progress whole = session.progress;
     session.progress = whole.part(0, 0.2);
-    const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
+    const auto pyramid = pyramid_of(start.layer(), options.pyramid, session, result.report);
     session.progress = whole;
     const std::vector<Index> kept = kept_by_bases(*pyramid, options.levels, options.bands - 1,
                                                   std::max<Index>(options.vertices, pyramid->hierarchy().size.back()));
-    const Multiband bands = multiband_of(layer.mesh, *pyramid, kept, nullptr, whole.part(0.2, 0.9));
+    const Multiband bands = multiband_of(mesh, *pyramid, kept, nullptr, whole.part(0.2, 0.9));
     report_bands(bands, kept, result.report);
     const std::vector<double> gain(options.gain.begin(), options.gain.begin() + options.bands - 1);
     const bool same = std::all_of(gain.begin(), gain.end(), [](double g) { return g == 1; });
-    Positions after = same ? layer.mesh.positions : bands.reconstruct(bands.coarsest(), gain);
+    Positions after = same ? mesh.positions : bands.reconstruct(bands.coarsest(), gain);
     whole.report(0.95, "Measuring the change");
     blend(layer.mesh.positions, weights, after);
     report_change(layer, after, result.report);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "filters/editing/bases.h"
+#include "filters/original.h"
 #include "filters/region.h"
 
 #include <array>
@@ -16,6 +17,7 @@ struct BandsOptions {
     int vertices = 500;  ///< that the coarsest base keeps; at least those of the pyramid's base
     std::array<double, most_bands - 1> gain = {1, 1, 1, 1, 1, 1, 1};  ///< finest first; bands - 1 of them count
     Region region;
+    RelativeTo relative_to = RelativeTo::current;
     PyramidOptions pyramid;
 };
 
