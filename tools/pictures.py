@@ -93,7 +93,7 @@ def remeshed(v, f):
     ms = document(v, f)
     ms.generate_copy_of_current_mesh()
     ms.meshing_isotropic_explicit_remeshing(iterations=3, targetlen=pymeshlab.PercentageValue(0.5))
-    ms.apply_coord_taubin_smoothing(stepsmoothnum=60)
+    ms.apply_coord_laplacian_smoothing(stepsmoothnum=12)
     return ms
 
 

@@ -60,12 +60,8 @@ inline Layer marked(Layer layer) {
 
 /// True for errors about a combination of parameters that no mesh can help; all others are the mesh's.
 inline bool blames_parameters(const std::string& error) {
-<<<<<<< HEAD
-    for (const char* part : {"no attribute is chosen", "at least one kind of detail", "form: ", "threshold_unit share"})
-=======
-    for (const char* part :
-         {"no attribute is chosen", "at least one kind of detail", "form: ", "use: there is no attribute"})
->>>>>>> 66e282c (wip3)
+    for (const char* part : {"no attribute is chosen", "at least one kind of detail", "form: ", "threshold_unit share",
+                             "use: there is no attribute"})
         if (error.find(part) != std::string::npos) return true;
     return false;
 }

@@ -7,16 +7,17 @@ from ._call import Array, MeshSet, Vector, also_flat, apply
 
 __all__ = [
     "AdaptiveReconstructionReport", "AttributeChanges", "BuildPyramidReport", "DenoiseAttributesReport",
-    "DenoiseReport", "DetailToQualityReport", "DetailsByScaleReport", "DifferenceToLayerReport", "EnhanceReport",
-    "EqualizerReport", "FalloffToQualityReport", "Features", "FilterAttributesReport", "FilterCustomAttributesReport",
-    "GenerateTexcoordReport", "Grouping", "LIMITS", "LevelAsLayerReport", "LowPassReport", "Mode", "MoveRegionReport",
-    "Movement", "Operator", "Order", "Pyramid", "PyramidUse", "RelativeTo", "RelaxAttributesReport", "ReliefReport",
-    "Result", "RoughnessReport", "Scheme", "SelectFeaturesReport", "SmoothBaseAsLayerReport", "Split", "StopBandReport",
+    "DenoiseReport", "DetailFromLayerReport", "DetailToQualityReport", "DetailsByScaleReport",
+    "DifferenceToLayerReport", "EnhanceReport", "EqualizerReport", "FalloffToQualityReport", "Features",
+    "FilterAttributesReport", "FilterCustomAttributesReport", "GenerateTexcoordReport", "Grouping", "LIMITS",
+    "LevelAsLayerReport", "LowPassReport", "Mode", "MoveRegionReport", "Movement", "MultibandEditReport", "Operator",
+    "Order", "Pyramid", "PyramidUse", "RelativeTo", "RelaxAttributesReport", "ReliefReport", "Result",
+    "RoughnessReport", "Scheme", "SelectFeaturesReport", "SmoothBaseAsLayerReport", "Split", "StopBandReport",
     "Storage", "TransferEditReport", "UnsharpReport", "Update", "adaptive_reconstruction", "build_pyramid", "denoise",
-    "denoise_attributes", "detail_to_quality", "details_by_scale", "difference_to_layer", "enhance", "equalizer",
-    "falloff_to_quality", "filter_attributes", "filter_custom_attributes", "generate_texcoord", "level_as_layer",
-    "low_pass", "move_region", "relax_attributes", "relief", "roughness", "select_features", "smooth_base_as_layer",
-    "stop_band", "transfer_edit", "unsharp",
+    "denoise_attributes", "detail_from_layer", "detail_to_quality", "details_by_scale", "difference_to_layer",
+    "enhance", "equalizer", "falloff_to_quality", "filter_attributes", "filter_custom_attributes", "generate_texcoord",
+    "level_as_layer", "low_pass", "move_region", "multiband_edit", "relax_attributes", "relief", "roughness",
+    "select_features", "smooth_base_as_layer", "stop_band", "transfer_edit", "unsharp",
 ]
 
 Scheme: TypeAlias = Literal["Roy", "Guskov", "Lazy", "Szczesna"]
@@ -481,6 +482,14 @@ class TransferEditReport(Movement, Result):
     """Root mean square distance of the vertices to the proxy before (mesh units)."""
     folded_faces: int
     """Faces that lie the other way round than the motion of the proxy near them would have it."""
+    vertices_kept: Array | None = None
+    """Vertices that each base keeps, finest first."""
+    band_detail: Array | None = None
+    """Root mean square length of the details of each band, finest first (mesh units)."""
+    border_points: int | None = None
+    """Base points on the boundary, where the search left the surface."""
+    nearest_points: int | None = None
+    """Base points that are the nearest, where no normal goes through the vertex."""
     pyramid_reused: bool | None = None
     """The pyramid kept with the mesh was used; otherwise one was built and kept."""
     locked_vertices: int | None = None
@@ -517,6 +526,52 @@ class SmoothBaseAsLayerReport(PyramidUse, Result):
     """The longest of these ways (mesh units)."""
     solver_steps: int
     """Steps of conjugate gradients."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class MultibandEditReport(Movement, PyramidUse, Result):
+    """What multiband_edit() returns."""
+
+    vertices_kept: Array
+    """Vertices that each base keeps, finest first."""
+    band_detail: Array
+    """Root mean square length of the details of each band, finest first (mesh units)."""
+    border_points: int
+    """Base points on the boundary, where the search left the surface."""
+    nearest_points: int
+    """Base points that are the nearest, where no normal goes through the vertex."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class DetailFromLayerReport(Result):
+    """What detail_from_layer() returns."""
+
+    rms_detail: float
+    """Root mean square length of the detail, with limits and gain (mesh units)."""
+    vertices_without: int | None = None
+    """Vertices that meet no other layer: they follow their neighbours."""
+    pyramid_reused: bool | None = None
+    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
+    locked_vertices: int | None = None
+    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
+    unreferenced_vertices: int | None = None
+    """Vertices without a face, which stay where they are."""
+    largest_displacement: float | None = None
+    """The longest way a vertex moved (mesh units)."""
+    rms_displacement: float | None = None
+    """Root of the mean square of the ways of all vertices (mesh units)."""
+    volume_before: float | None = None
+    """Enclosed volume of the input; of no use if the mesh is open (cubic mesh units)."""
+    volume_after: float | None = None
+    """The same of the result (cubic mesh units)."""
+    area_before: float | None = None
+    """Surface area of the input (square mesh units)."""
+    area_after: float | None = None
+    """Surface area of the result (square mesh units)."""
+    centroid_shift: float | None = None
+    """How far the centroid of the surface moved (mesh units)."""
+    flipped_faces: int | None = None
+    """Faces whose normal turned by more than 90 degrees."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -1172,8 +1227,8 @@ def denoise(
 def transfer_edit(
     ms: MeshSet, *, edited: int | None = None, before: int | None = None,
     details: Literal["multiresolution", "single resolution", "none"] = "multiresolution", gain: float = 1.0,
-    encoding: Literal["gradient", "frames"] = "gradient", selected: bool | None = None, quality_mask: bool = False,
-    soft_border: float | None = None, pyramid: Pyramid | None = None,
+    encoding: Literal["gradient", "frames", "phong"] = "gradient", bands: int = 5, selected: bool | None = None,
+    quality_mask: bool = False, soft_border: float | None = None, pyramid: Pyramid | None = None,
 ) -> TransferEditReport:
     """Lets the current layer, a scan say, follow the edit of a coarse mesh near it: export a decimated copy or a level,
     change it in any editor, import it, and the scan changes with it and keeps its detail, colours and texture.
@@ -1193,7 +1248,10 @@ def transfer_edit(
         gain: Factor of the detail finer than the proxy; 1 is as it is. A number, 0 to 4.
         encoding: Gradient: the proxy's turning and stretching is applied to the gradients of the surface, which is then
             put together by one linear solve; the most exact. Frames: a level of the pyramid moves, and details in
-            frames of coarser levels follow.
+            frames of coarser levels follow. Phong: a smooth base moves, and details along smooth fields of normals
+            follow.
+        bands: Phong only: 1 measures heights over the proxy itself; 2 to 8 put a smooth base of as many vertices as the
+            proxy has and that many bands less one over it. A whole number, 1 to 8.
         selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
             derived from the mesh.
         quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
@@ -1296,6 +1354,98 @@ def smooth_base_as_layer(
         Vorsatz, Kobbelt, "Robust Multi-Band Detail Encoding for Triangular Meshes of Arbitrary Connectivity", VMV 1999.
     """
     return apply(SmoothBaseAsLayerReport, "generate_multires_base", **locals())
+
+
+@also_flat(Pyramid)
+def multiband_edit(
+    ms: MeshSet, *, gain_1: float = 1.0, gain_2: float = 2.0, gain_3: float = 1.0, gain_4: float = 1.0,
+    gain_5: float = 1.0, gain_6: float = 1.0, gain_7: float = 1.0, bands: int = 5,
+    levels: Literal["ratio", "edge length", "equal detail"] = "ratio", vertices: int | None = None,
+    selected: bool | None = None, quality_mask: bool = False, relative_to: RelativeTo = "current shape",
+    pyramid: Pyramid | None = None,
+) -> MultibandEditReport:
+    """Splits the surface into a smooth base and bands of detail over one another, and puts it together with a gain for
+    each band.
+
+    Details are heights over the next coarser shape, along a field of normals without a jump, so they follow what
+    coarser bands do.
+
+    The filter apply_coord_multires_bands, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        gain_1: Factor of the detail of band 1, the finest. There are as many bands of detail as bands less one. A
+            number, 0 to 4.
+        gain_2: Factor of the detail of band 2. There are as many bands of detail as bands less one. A number, 0 to 4.
+        gain_3: Factor of the detail of band 3. There are as many bands of detail as bands less one. A number, 0 to 4.
+        gain_4: Factor of the detail of band 4. There are as many bands of detail as bands less one. A number, 0 to 4.
+        gain_5: Factor of the detail of band 5. There are as many bands of detail as bands less one. A number, 0 to 4.
+        gain_6: Factor of the detail of band 6. There are as many bands of detail as bands less one. A number, 0 to 4.
+        gain_7: Factor of the detail of band 7. There are as many bands of detail as bands less one. A number, 0 to 4.
+        bands: How many bands there are, the smooth base among them. A whole number, 2 to 8.
+        levels: How the bases follow each other. Ratio: by a constant ratio of the vertices they keep. Edge length: by
+            one of the mean edge lengths of these. Equal detail: so that all bands have about the same detail.
+        vertices: How many vertices the coarsest base keeps. Fewer leave more to the bands. A whole number, at least 1.
+            None: derived from the mesh.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        relative_to: Current shape: the filter changes the mesh as it is now. Original: it starts again from the shape
+            the mesh had before any Multiresolution filter moved it, so that changes do not add up, and values that
+            change nothing (gains of 1) bring exactly that shape back. Outside the selection the mesh stays as it is.
+            The original is kept with the layer until something else changes the mesh; files do not hold it.
+        pyramid: how the pyramid is built. None: the filter's defaults.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Vorsatz, Kobbelt, "Robust Multi-Band Detail Encoding for Triangular Meshes of Arbitrary Connectivity", VMV 1999.
+    """
+    return apply(MultibandEditReport, "apply_coord_multires_bands", **locals())
+
+
+@also_flat(Pyramid)
+def detail_from_layer(
+    ms: MeshSet, *, layer: int | None = None, use: Literal["apply", "store", "apply stored"] = "apply",
+    attribute: str = "detail", gain: float = 1.0, largest_distance: float | None = None, finest: float = 0.0,
+    coarsest: float = 0.0, selected: bool | None = None, quality_mask: bool = False, pyramid: Pyramid | None = None,
+) -> DetailFromLayerReport:
+    """Brings the detail of another layer, a scan say, onto the current one: its remesh, a smooth or another shape
+    nearby.
+
+    Or stores it as a custom attribute that can be applied later, to the same layer in another shape, as often and as
+    strongly as wanted.
+
+    The filter transfer_coord_multires_detail, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        layer: The layer that has the detail: a scan near the current layer, or a copy of the current one that was
+            sculpted. None: the first other layer.
+        use: Apply: the current layer takes the detail over. Store: the detail becomes a custom attribute of the current
+            layer, points in the frames of its vertices, and nothing moves. Apply stored: the current layer takes over
+            what that attribute holds.
+        attribute: Name of the custom attribute that stores the detail.
+        gain: Factor of the detail; 1 brings vertices onto the other layer. A number, 0 to 4.
+        largest_distance: How far along its normal, on either side, a vertex looks for the other layer, mesh units. A
+            number, at least 0. None: derived from the mesh.
+        finest: Leave out detail of waves shorter than that, mesh units; 0 leaves none out. A number, at least 0.
+        coarsest: Leave out detail of waves longer than that, mesh units; 0 leaves none out. A number, at least 0.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        pyramid: how the pyramid is built. None: the filter's defaults.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Vorsatz, Kobbelt, "Robust Multi-Band Detail Encoding for Triangular Meshes of Arbitrary Connectivity", VMV 1999.
+    """
+    return apply(DetailFromLayerReport, "transfer_coord_multires_detail", **locals())
 
 
 def relax_attributes(
@@ -1659,10 +1809,17 @@ LIMITS: dict[str, dict[str, tuple[float, float]]] = {
         "strength": (0, 4), "cycle_spins": (1, 64),
     },
     "transfer_edit": {
-        "gain": (0, 4),
+        "gain": (0, 4), "bands": (1, 8),
     },
     "move_region": {
         "angle": (-180, 180), "scale": (0.01, 100),
+    },
+    "multiband_edit": {
+        "gain_1": (0, 4), "gain_2": (0, 4), "gain_3": (0, 4), "gain_4": (0, 4), "gain_5": (0, 4), "gain_6": (0, 4),
+        "gain_7": (0, 4), "bands": (2, 8),
+    },
+    "detail_from_layer": {
+        "gain": (0, 4),
     },
     "relax_attributes": {
         "iterations": (1, 10000), "strength": (1e-06, 1), "corner_angle": (0, 180), "feature_angle": (0.01, 179.99),
