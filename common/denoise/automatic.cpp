@@ -3,8 +3,10 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "base/reduce.h"
+#include "denoise/lattice.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
+#include "normals/guided_normals.h"
 #include "normals/spikes.h"
 
 #include <algorithm>
@@ -14,6 +16,10 @@ namespace multires {
 namespace {
 
 constexpr double rounding = 1e-4;      ///< edge lengths: less than this is no noise
+constexpr double least_step = 0.03;    ///< edge lengths: a lattice that is finer makes no noise to speak of
+constexpr int spike_steps = 3;         ///< of guided normals, for what impulses met: creases come back
+constexpr double mostly = 0.5;         ///< weight of the normal field that speaks for guided normals
+constexpr double sharply = 0.65;       ///< weight of what keeps creases from which on it is alone
 constexpr double small_weight = 0.04;  ///< candidates with less than this are left out
 
 using Tick = std::function<void(double, const char*)>;
@@ -146,15 +152,46 @@ void drop_small(Eigen::VectorXd& t) {
     if (t.sum() > 0) t *= before / t.sum();
 }
 
+/// The weights of least risk without some of the candidates.
+Eigen::VectorXd least_risk_of(const Risk& risk, const std::vector<std::uint8_t>& allowed) {
+    std::vector<Eigen::Index> kept;
+    for (std::size_t k = 0; k < allowed.size(); ++k)
+        if (allowed[k]) kept.push_back(static_cast<Eigen::Index>(k));
+    const Eigen::VectorXd t = least_risk({risk.constant, risk.linear(kept), risk.quadratic(kept, kept)});
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(risk.linear.size());
+    for (std::size_t k = 0; k < kept.size(); ++k) out[kept[k]] = t[static_cast<Eigen::Index>(k)];
+    return out;
+}
+
+/// The candidates that keep creases: the normal field, and guided normals after it.
+std::vector<std::uint8_t> sharp_candidates(Eigen::Index count) {
+    const std::vector<Candidate> all = all_candidates();
+    std::vector<std::uint8_t> sharp(static_cast<std::size_t>(count));
+    for (std::size_t k = 0; k < sharp.size(); ++k)
+        sharp[k] = all[k].family == Family::normal_field || all[k].family == Family::guided_normals;
+    return sharp;
+}
+
+double sharp_share(const Eigen::VectorXd& t) {
+    const std::vector<std::uint8_t> sharp = sharp_candidates(t.size());
+    double share = 0;
+    for (Eigen::Index k = 0; k < t.size(); ++k)
+        if (sharp[static_cast<std::size_t>(k)]) share += t[k];
+    return share;
+}
+
 /// Least risk of the normals, as long as the distances gain, too: a third of the noise, or half of what they could.
+/// Where most speaks for what keeps creases, nothing that rounds them is mixed in: squares make much of few vertices.
 Eigen::VectorXd weights_of(const Risks& r) {
     const double half = (r.heights.constant + r.heights.at(least_risk(r.heights))) / 2;
     const double limit = std::max(half, 0.7 * r.heights.constant);
     Eigen::VectorXd t;
     for (const double heights : {0.0, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0}) {
         const double e = 1 / r.edges.constant, h = heights / r.heights.constant;
-        t = least_risk({e * r.edges.constant + h * r.heights.constant, e * r.edges.linear + h * r.heights.linear,
-                        e * r.edges.quadratic + h * r.heights.quadratic});
+        const Risk both = {e * r.edges.constant + h * r.heights.constant, e * r.edges.linear + h * r.heights.linear,
+                           e * r.edges.quadratic + h * r.heights.quadratic};
+        t = least_risk(both);
+        if (sharp_share(t) > sharply) t = least_risk_of(both, sharp_candidates(t.size()));
         drop_small(t);
         if (r.heights.at(t) <= limit) break;
     }
@@ -182,20 +219,19 @@ double noise_left(const std::vector<Response>& responses, const std::vector<doub
     return mean.value();
 }
 
-/// Weight of the normal field.
-double field_share(const Eigen::VectorXd& t) {
-    const Eigen::Index count = field_strength.size();
-    return t.tail(count).sum();
-}
-
 Choice choose(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
               const Assumed& noise, const std::vector<std::uint8_t>& core, const std::function<void(double)>& tick) {
     const Prepared p = prepared(faces, positions, at, near, noise.normal_steps);
     const CandidateMaker maker(faces, positions, at, near, p.normal, p.weight, noise.deviation);
-    const std::vector<Response> responses = maker.responses(tick);
-    const Risks r = risks(near, responses, noise.deviation, maker.probe(), core);
+    CandidateMaker::Responses responses = maker.responses([&](double f) { tick(0.8 * f); });
+    Risks r = risks(near, responses.all, noise.deviation, maker.probe(), core);
     Choice choice;
     choice.weights = weights_of(r);
+    if (sharp_share(choice.weights) > mostly) {
+        maker.add_guided(responses, [&](double f) { tick(0.8 + 0.2 * f); });
+        r = risks(near, responses.all, noise.deviation, maker.probe(), core);
+        choice.weights = weights_of(r);
+    }
     const double certain = noise.certain / (noise.factor * noise.factor);
     choice.weights *=
         std::min(safe_share(r.edges, choice.weights, certain), safe_share(r.heights, choice.weights, certain));
@@ -207,8 +243,9 @@ Choice choose(const Faces& faces, const Positions& positions, const Incidence& a
     choice.gain = std::max(0.0, -2 * certain * r.heights.linear.dot(choice.weights) -
                                     choice.weights.dot(r.heights.quadratic * choice.weights));
     // What the blend leaves of the noise is an error in any case.
-    choice.after = std::max(expected.at(choice.weights),
-                            noise_left(responses, maker.probe(), choice.weights, core) / (noise.factor * noise.factor));
+    choice.after =
+        std::max(expected.at(choice.weights),
+                 noise_left(responses.all, maker.probe(), choice.weights, core) / (noise.factor * noise.factor));
     return choice;
 }
 
@@ -239,7 +276,7 @@ struct Shares {
 /// faces back itself, and better at creases.
 Shares safe_shares(const WithinSurface& within, const Choice& choice) {
     Shares shares;
-    if (field_share(choice.weights) > 0.9) shares.turning = 0;
+    if (sharp_share(choice.weights) > 0.9) shares.turning = 0;
     const double smoothed = mean_square(within.smoothing), turned = shares.turning * mean_square(within.turning);
     double allowed = 0.25 * choice.gain;
     if (within.noisy) {
@@ -267,6 +304,17 @@ double error_within(const WithinSurface& within, const Shares& shares) {
     return shares.smoothing * shares.smoothing * mean_square(within.smoothing) + turned;
 }
 
+/// Impulses are set back, unless the surface is rough everywhere.
+Positions without_impulses(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+                           Index& spikes) {
+    Positions start = without_spikes(faces, positions, at, spikes);
+    if (spikes > 0 && !stand_out(faces, positions, start, near)) spikes = 0;
+    if (spikes == 0) return positions;
+    std::vector<std::uint8_t> moves(positions.size());
+    for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = start[i] != positions[i];
+    return guided_steps(faces, start, at, face_graph(faces, at), spike_steps, moves);
+}
+
 }  // namespace
 
 Positions denoise_automatically(const Faces& faces, const Positions& positions, const AutomaticOptions& options,
@@ -277,14 +325,16 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     const Incidence at = vertex_faces(faces, count);
     const Neighbours near = neighbours(faces, at);
     stats.edge = mean_edge_length(faces, positions);
-    tick(0.05, "Looking for impulsive noise");
-    Positions start = without_spikes(faces, positions, at, stats.spikes);
-    if (stats.spikes > 0 && !stand_out(faces, positions, start, near)) {
-        start = positions;
-        stats.spikes = 0;
+    std::optional<SurfaceNoise> rounded;
+    if (!options.deviation) {
+        const std::optional<double> step = lattice_step(positions, least_step * stats.edge);
+        if (step) rounded = rounding_noise(faces, positions, at, near, *step, stats.edge);
+        if (rounded) stats.step = *step;
     }
+    tick(0.05, "Looking for impulsive noise");
+    const Positions start = rounded ? positions : without_impulses(faces, positions, at, near, stats.spikes);
     tick(0.1, "Measuring the noise");
-    SurfaceNoise noise = surface_noise(faces, start, at, near, stats.edge);
+    SurfaceNoise noise = rounded ? *rounded : surface_noise(faces, start, at, near, stats.edge);
     if (options.deviation) {
         noise.along_normals = noise.at_least = *options.deviation;
         noise.axis.reset();
@@ -302,7 +352,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     const WithinSurface within = relax_within_surface(faces, start, near, noise, stats.edge);
     tick(0.25, "Choosing");
     const double in_edges = noise.along_normals / stats.edge;
-    assumed.factor = allowance(in_edges, count);
+    assumed.factor = rounded ? 1 : allowance(in_edges, count);
     assumed.normal_steps = normal_steps(in_edges);
     for (double& d : assumed.deviation) d *= options.strength * assumed.factor;
     const Choice choice = choose_on_sample(faces, shifted(start, within, Shares()), at, near, assumed,
@@ -311,11 +361,13 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     const Positions relaxed = shifted(start, within, shares);
     const Prepared p = prepared(faces, relaxed, at, near, assumed.normal_steps);
     const CandidateMaker maker(faces, relaxed, at, near, p.normal, p.weight, assumed.deviation);
-    stats.weights = choice.weights;
+    stats.weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all_candidates().size()));
+    stats.weights.head(choice.weights.size()) = choice.weights;
     stats.all_directions = within.noisy;
     stats.rms_before = std::sqrt(choice.before + within.before * within.before * within.noisy);
     stats.rms_after = std::sqrt(choice.after + error_within(within, shares));
-    Positions after = maker.blend(choice.weights, [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
+    Positions after = maker.blend(stats.weights, [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
+    if (rounded) keep_within_cells(positions, stats.step, after);
     stats.edge = mean_edge_length(faces, after);
     return after;
 }

@@ -1,6 +1,7 @@
 #include "denoise/candidates.h"
 
 #include "base/parallel.h"
+#include "normals/guided_normals.h"
 #include "normals/normal_field.h"
 
 #include <algorithm>
@@ -12,8 +13,9 @@ namespace {
 /// varies with the sampling only.
 constexpr std::array<int, 6> local_steps = {4, 6, 9, 15, 25, 40};
 constexpr int noise_steps = 12;
-/// Length of the push that measures the response of a normal field, which is not linear, in samples of the noise.
-constexpr double push_length = 0.1;
+/// Lengths of the pushes that measure how candidates answer that are not linear, in samples of the noise: guided
+/// normals jump where another patch becomes the most consistent one.
+constexpr double field_push = 0.1, guided_push = 0.4;
 constexpr double rounding = 1e-4;  ///< differences of normals that coordinates in single precision make
 constexpr int fit_steps = 8;       ///< more would follow the normals further and lose volume
 
@@ -22,7 +24,7 @@ void add_scaled(std::vector<double>& to, double factor, const std::vector<double
 }
 
 /// Move and response of a low pass: its first two channels.
-Response response_of(const std::vector<double>& low) {
+Response of_low_pass(const std::vector<double>& low) {
     Response out(low.size() / 3 * 2);
     for (std::size_t i = 0; i < low.size() / 3; ++i) {
         out[2 * i] = low[3 * i];
@@ -43,6 +45,7 @@ std::vector<Candidate> all_candidates() {
     add(Family::equal_wiener, wiener_severity.size());
     add(Family::cotangent_wiener, wiener_severity.size());
     add(Family::normal_field, field_strength.size());
+    add(Family::guided_normals, guided_steps_after.size());
     return all;
 }
 
@@ -98,7 +101,7 @@ std::vector<CandidateMaker::Band> CandidateMaker::bands(const LowPasses& low) co
 }
 
 Response CandidateMaker::wiener(const LowPasses& low, const std::vector<Band>& bands, double severity) const {
-    Response out = response_of(low.back());
+    Response out = of_low_pass(low.back());
     parallel_for(near_.rows(), [&](Index v) {
         for (const Band& band : bands) {
             // The gain 1 - noise / energy, and how it answers the probe: energy answers with twice the mean of d b.
@@ -114,49 +117,78 @@ Response CandidateMaker::wiener(const LowPasses& low, const std::vector<Band>& b
     return out;
 }
 
-Positions CandidateMaker::field(const Positions& from, double strength, const std::function<void(double)>& tick) const {
+const FaceGraph& CandidateMaker::graph() const {
     if (!graph_) graph_ = face_graph(faces_, at_);
+    return *graph_;
+}
+
+Positions CandidateMaker::field(const Positions& from, double strength, const std::function<void(double)>& tick) const {
     NormalFieldOptions options;
     options.strength = strength;
     NormalFieldStats stats;
-    const Array<Vec3> normals = denoise_normals(faces_, from, *graph_, options, stats, tick);
+    const Array<Vec3> normals = denoise_normals(faces_, from, graph(), options, stats, tick);
     return stats.noise > rounding ? fit_vertices(faces_, from, at_, normals, fit_steps) : from;
 }
 
-Response CandidateMaker::field_response(double strength, const std::function<void(double)>& tick) const {
-    const Positions after = field(positions_, strength, [&](double f) { tick(f / 2); });
+double CandidateMaker::side() const {
     // The field does not answer a push and its opposite alike, so the side must not depend on the
     // winding of the faces, as the normals do.
     double side = 0;
     for (std::size_t i = 0; i < probe_.size(); ++i) side += normal_[i].dot(positions_[i] - positions_[0]);
-    const double push = side < 0 ? -push_length : push_length;
-    Positions pushed = positions_;
-    for (std::size_t i = 0; i < probe_.size(); ++i) pushed[i] += push * probe_[i] * normal_[i];
-    const Positions other = field(pushed, strength, [&](double f) { tick(0.5 + f / 2); });
+    return side < 0 ? -1 : 1;
+}
+
+Positions CandidateMaker::pushed(double length) const {
+    Positions out = positions_;
+    for (std::size_t i = 0; i < probe_.size(); ++i) out[i] += length * probe_[i] * normal_[i];
+    return out;
+}
+
+Response CandidateMaker::response_of(const Positions& after, const Positions& after_push, double length) const {
     Response out(2 * probe_.size());
     for (std::size_t i = 0; i < probe_.size(); ++i) {
         out[2 * i] = normal_[i].dot(after[i] - positions_[i]);
-        out[2 * i + 1] = (normal_[i].dot(other[i] - pushed[i]) - out[2 * i]) / push;
+        out[2 * i + 1] = normal_[i].dot(after_push[i] - after[i]) / length - probe_[i];
     }
     return out;
 }
 
-std::vector<Response> CandidateMaker::responses(const std::function<void(double)>& tick) const {
-    std::vector<Response> all, wieners;
+CandidateMaker::Responses CandidateMaker::responses(const std::function<void(double)>& tick) const {
+    Responses out;
+    std::vector<Response>& all = out.all;
+    std::vector<Response> wieners;
     for (const bool cotangents : {false, true}) {
         const LowPasses low = low_passes(cotangents);
         tick(cotangents ? 0.2 : 0.05);
         const std::vector<Band> split = bands(low);
         for (const double severity : wiener_severity) wieners.push_back(wiener(low, split, severity));
         tick(cotangents ? 0.3 : 0.15);
-        for (const auto& l : low) all.push_back(response_of(l));
+        for (const auto& l : low) all.push_back(of_low_pass(l));
     }
     std::move(wieners.begin(), wieners.end(), std::back_inserter(all));
-    for (std::size_t k = 0; k < field_strength.size(); ++k)
-        all.push_back(field_response(field_strength[k], [&](double f) {
-            tick(0.3 + 0.7 * (static_cast<double>(k) + f) / field_strength.size());
-        }));
-    return all;
+    const double push = field_push * side();
+    const Positions other = pushed(push);
+    for (std::size_t k = 0; k < field_strength.size(); ++k) {
+        const auto part = [&](double f) { tick(0.3 + 0.7 * (static_cast<double>(k) + f) / field_strength.size()); };
+        out.field = field(positions_, field_strength[k], [&](double f) { part(f / 2); });
+        const Positions after_push = field(other, field_strength[k], [&](double f) { part(0.5 + f / 2); });
+        all.push_back(response_of(out.field, after_push, push));
+    }
+    return out;
+}
+
+void CandidateMaker::add_guided(Responses& responses, const std::function<void(double)>& tick) const {
+    const double push = guided_push * side();
+    Positions own = responses.field;
+    Positions other = field(pushed(push), field_strength.back(), [&](double f) { tick(0.3 * f); });
+    int done = 0;
+    for (const int steps : guided_steps_after) {
+        own = guided_steps(faces_, own, at_, graph(), steps - done);
+        other = guided_steps(faces_, other, at_, graph(), steps - done);
+        responses.all.push_back(response_of(own, other, push));
+        done = steps;
+        tick(0.3 + 0.7 * done / guided_steps_after.back());
+    }
 }
 
 bool CandidateMaker::needs(const Eigen::VectorXd& weights, Family family) const {
@@ -177,7 +209,7 @@ Positions CandidateMaker::blend(const Eigen::VectorXd& weights, const std::funct
         const std::vector<Band> split = needs(weights, shrunk) ? bands(low) : std::vector<Band>();
         for (std::size_t k = 0; k < all.size(); ++k) {
             if (!(weights[k] > 0)) continue;
-            if (all[k].family == low_pass) add_scaled(height, weights[k], response_of(low[all[k].index]));
+            if (all[k].family == low_pass) add_scaled(height, weights[k], of_low_pass(low[all[k].index]));
             if (all[k].family == shrunk)
                 add_scaled(height, weights[k], wiener(low, split, wiener_severity[all[k].index]));
         }
@@ -185,11 +217,25 @@ Positions CandidateMaker::blend(const Eigen::VectorXd& weights, const std::funct
     }
     Positions out = positions_;
     for (std::size_t i = 0; i < out.size(); ++i) out[i] += height[2 * i] * normal_[i];
+    Positions after;
+    const auto add = [&](double weight) {
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] += weight * (after[i] - positions_[i]);
+    };
+    const bool guided = needs(weights, Family::guided_normals);
     for (std::size_t k = 0; k < all.size(); ++k) {
-        if (all[k].family != Family::normal_field || !(weights[k] > 0)) continue;
-        const Positions after =
-            field(positions_, field_strength[all[k].index], [&](double f) { tick(0.4 + 0.3 * (all[k].index + f)); });
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] += weights[k] * (after[i] - positions_[i]);
+        const bool last = all[k].index + 1 == field_strength.size();
+        if (all[k].family != Family::normal_field || !(weights[k] > 0 || (guided && last))) continue;
+        after =
+            field(positions_, field_strength[all[k].index], [&](double f) { tick(0.4 + 0.2 * (all[k].index + f)); });
+        add(weights[k]);
+    }
+    int done = 0;
+    for (std::size_t k = 0; k < all.size() && guided; ++k) {
+        if (all[k].family != Family::guided_normals) continue;
+        after = guided_steps(faces_, after, at_, graph(), guided_steps_after[all[k].index] - done);
+        done = guided_steps_after[all[k].index];
+        add(weights[k]);
+        tick(0.8 + 0.2 * done / guided_steps_after.back());
     }
     return out;
 }

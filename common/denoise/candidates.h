@@ -16,8 +16,10 @@ constexpr std::array<int, 6> low_pass_steps = {1, 2, 5, 12, 30, 80};
 constexpr std::array<double, 3> wiener_severity = {1, 1.5, 2.5};
 /// The scale space of the normals (normals/normal_field.h) with these strengths.
 constexpr std::array<double, 2> field_strength = {0.6, 1};
+/// Steps of guided normals (normals/guided_normals.h) after the last of these.
+constexpr std::array<int, 2> guided_steps_after = {2, 8};
 
-enum class Family { equal_low_pass, cotangent_low_pass, equal_wiener, cotangent_wiener, normal_field };
+enum class Family { equal_low_pass, cotangent_low_pass, equal_wiener, cotangent_wiener, normal_field, guided_normals };
 
 /// What one candidate is; `index` into the family's array.
 struct Candidate {
@@ -39,9 +41,15 @@ public:
 
     const std::vector<double>& probe() const { return probe_; }
 
-    /// Move and response of all candidates.
+    struct Responses {
+        std::vector<Response> all;  ///< in the order of all_candidates()
+        Positions field;            ///< the mesh after the last of the normal fields
+    };
+    /// Move and response of all candidates but the guided normals, which come last.
     /// @param tick  called with the fraction done; may throw to stop
-    std::vector<Response> responses(const std::function<void(double)>& tick) const;
+    Responses responses(const std::function<void(double)>& tick) const;
+    /// Those of the guided normals: they begin where the normal field ends.
+    void add_guided(Responses& responses, const std::function<void(double)>& tick) const;
 
     /// Where a blend of candidates puts the vertices. Candidates of weight 0 are not made.
     Positions blend(const Eigen::VectorXd& weights, const std::function<void(double)>& tick) const;
@@ -58,8 +66,11 @@ private:
     };
     std::vector<Band> bands(const LowPasses& low) const;
     Response wiener(const LowPasses& low, const std::vector<Band>& bands, double severity) const;
+    const FaceGraph& graph() const;
     Positions field(const Positions& from, double strength, const std::function<void(double)>& tick) const;
-    Response field_response(double strength, const std::function<void(double)>& tick) const;
+    double side() const;
+    Positions pushed(double length) const;
+    Response response_of(const Positions& after, const Positions& after_push, double length) const;
 
     const Faces& faces_;
     const Positions& positions_;

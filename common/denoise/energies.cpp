@@ -22,14 +22,6 @@ double mean_of(const std::vector<double>& values) {
     return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Squares, averaged over a few rings.
-std::vector<double> local_squares(const Neighbours& near, const std::vector<double>& detail) {
-    std::vector<double> energy(detail.size());
-    for (std::size_t i = 0; i < detail.size(); ++i) energy[i] = detail[i] * detail[i];
-    average(near, energy, 3, local_steps);
-    return energy;
-}
-
 /// Moments of the means of tenths.
 struct Moments {
     double x = 0, y = 0;    ///< means
@@ -80,8 +72,14 @@ double Energies::mean() const {
     return expected > 0 ? 2 * mean_of(field) / expected : 0;
 }
 
-Energies local_energies(const Neighbours& near, const std::vector<double>& detail, const std::vector<Index>& inner) {
-    const std::vector<double> energy = local_squares(near, detail);
+std::vector<double> local_squares(const Neighbours& near, const std::vector<double>& detail) {
+    std::vector<double> energy(detail.size());
+    for (std::size_t i = 0; i < detail.size(); ++i) energy[i] = detail[i] * detail[i];
+    average(near, energy, 3, local_steps);
+    return energy;
+}
+
+Energies local_energies(const Neighbours& near, const std::vector<double>& energy, const std::vector<Index>& inner) {
     std::vector<double> expected(near.rows());
     for (Index v = 0; v < near.rows(); ++v) expected[v] = (energy[3 * v + 1] + energy[3 * v + 2]) / 2;
     average(near, expected, 1, smooth_steps);
@@ -98,8 +96,8 @@ Energies local_energies(const Neighbours& near, const std::vector<double>& detai
     return e;
 }
 
-double peakedness(const Neighbours& near, const std::vector<double>& detail, const std::vector<Index>& inner) {
-    const std::vector<double> energy = local_squares(near, detail);
+double peakedness(const std::vector<double>& detail, const std::vector<double>& energy,
+                  const std::vector<Index>& inner) {
     std::array<double, 3> size{}, square{};
     for (const Index v : inner)
         for (int c = 0; c < 3; ++c) {

@@ -16,14 +16,19 @@ struct Energies {
     double mean() const;
 };
 
+/// Squares, averaged over a few rings.
 /// @param detail  #V by 3: of the surface, of noise, of other noise
+std::vector<double> local_squares(const Neighbours& near, const std::vector<double>& detail);
+
+/// @param energy  #V by 3: local_squares() of details
 /// @param inner   vertices that count
-Energies local_energies(const Neighbours& near, const std::vector<double>& detail, const std::vector<Index>& inner);
+Energies local_energies(const Neighbours& near, const std::vector<double>& energy, const std::vector<Index>& inner);
 
 /// How much the largest details stand out of those around them: mean square by squared mean size, each detail taken in
 /// units of the energy around it, by the same of noise. 1 for Gaussian noise, whatever its strength from place to
 /// place, more for features, texture and impulses.
-double peakedness(const Neighbours& near, const std::vector<double>& detail, const std::vector<Index>& inner);
+double peakedness(const std::vector<double>& detail, const std::vector<double>& energy,
+                  const std::vector<Index>& inner);
 
 /// The part of the energy that does not go with the bends: `energy` = noise + share x (bends - noise), fitted to tenths
 /// of the vertices by their bends, less what the noise's own fluctuations have in common.

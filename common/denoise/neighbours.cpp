@@ -5,7 +5,9 @@
 #include "base/random.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <stdexcept>
 
 namespace multires {
 namespace {
@@ -23,6 +25,24 @@ double limited_cotangent(const Vec3& a, const Vec3& b) {
     const double dot = a.dot(b), cross = a.cross(b).norm();
     if (dot >= 5 * cross) return 5;
     return std::max(0.05, dot / cross);  // cross > 0 here, or dot < 0 and the limit holds for -infinity too
+}
+
+template <int width>
+void averaged(const Neighbours& near, std::vector<double>& values, int steps) {
+    std::vector<double> next(values.size());
+    for (int step = 0; step < steps; ++step) {
+        parallel_for(near.rows(), [&](Index v) {
+            std::array<double, width> sum;
+            const double* own = values.data() + static_cast<std::size_t>(v) * width;
+            for (int c = 0; c < width; ++c) sum[c] = own[c];
+            for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) {
+                const double* other = values.data() + static_cast<std::size_t>(near.vertex[k]) * width;
+                for (int c = 0; c < width; ++c) sum[c] += other[c];
+            }
+            for (int c = 0; c < width; ++c) next[static_cast<std::size_t>(v) * width + c] = sum[c] / (1 + near.size(v));
+        });
+        values.swap(next);
+    }
 }
 
 }  // namespace
@@ -96,17 +116,10 @@ Positions taubin(const Neighbours& near, Positions p, int steps) {
 }
 
 void average(const Neighbours& near, std::vector<double>& values, int width, int steps) {
-    std::vector<double> next(values.size());
-    for (int step = 0; step < steps; ++step) {
-        parallel_for(near.rows(), [&](Index v) {
-            for (int c = 0; c < width; ++c) {
-                double sum = values[v * width + c];
-                for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) sum += values[near.vertex[k] * width + c];
-                next[v * width + c] = sum / (1 + near.size(v));
-            }
-        });
-        values.swap(next);
-    }
+    if (width == 1) return averaged<1>(near, values, steps);
+    if (width == 3) return averaged<3>(near, values, steps);
+    if (width == 6) return averaged<6>(near, values, steps);
+    throw std::logic_error("average: there is no code for this width");
 }
 
 double gaussian(Index place, std::uint64_t seed) {

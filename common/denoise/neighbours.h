@@ -30,7 +30,7 @@ std::vector<double> cotangent_weights(const Faces& faces, const Incidence& at, c
 Positions taubin(const Neighbours& near, Positions positions, int steps);
 
 /// Replaces each value by its mean with the neighbours' values, `steps` times.
-/// @param values  #V by `width`, interleaved
+/// @param values  #V by `width`, interleaved; width is 1, 3 or 6
 void average(const Neighbours& near, std::vector<double>& values, int width, int steps);
 
 /// A sample of the standard normal distribution: the same for the same place and seed.

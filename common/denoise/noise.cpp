@@ -53,7 +53,7 @@ std::vector<Index> inner_vertices(const Neighbours& near) {
 struct Findings {
     double quiet_first = 0, quiet_third = 0;  ///< energies that are there everywhere; first details hold bends, too
     double without_bends = 0;                 ///< see energies.h
-    double mean = 0;                          ///< of the third details
+    double mean = 0, median = 0, low = 0;     ///< of the third details; low: of the quietest tenth
     double peakedness = 0;                    ///< of the third details
     std::optional<AxisNoise> axis;
     double peakedness_along_axis = 0;  ///< of the third details, beside noise along the axis
@@ -75,21 +75,24 @@ Findings findings(const Faces& faces, const Positions& p, const Incidence& at, c
         const std::vector<double> first = surface.detail(h);
         const std::vector<double> third = surface.linear_detail(surface.linear_detail(first));
         surface.smooth(h, bend_steps);
-        const Energies energy = local_energies(near, third, inner);
-        mean.quiet_first += quiet_energy(local_energies(near, first, inner), edge) / repeats;
+        const std::vector<double> squares = local_squares(near, third);
+        const Energies energy = local_energies(near, squares, inner);
+        mean.quiet_first += quiet_energy(local_energies(near, local_squares(near, first), inner), edge) / repeats;
         mean.quiet_third += quiet_energy(energy, edge) / repeats;
-        const Energies bends = local_energies(near, surface.detail(h), inner);
+        const Energies bends = local_energies(near, local_squares(near, surface.detail(h)), inner);
         mean.without_bends += without_bends(energy, bends) / repeats;
         if (repeat == 0) mean.axis = axis_noise(near, base.normal, inner, energy, bends);
         mean.mean += energy.mean() / repeats;
-        mean.peakedness += peakedness(near, third, inner) / repeats;
+        mean.median += energy.quantile(0.5) / repeats;
+        mean.low += energy.quantile(0.1) / repeats;
+        mean.peakedness += peakedness(third, squares, inner) / repeats;
     }
     if (mean.axis) {
         std::vector<double> h(3 * near.rows(), 0);
         for (Index v = 0; v < near.rows(); ++v)
             for (int c = 1; c < 3; ++c) h[3 * v + c] = gaussian(v, 100 + c) * base.normal[v].dot(mean.axis->axis);
         const std::vector<double> third = surface.linear_detail(surface.linear_detail(surface.detail(h)));
-        mean.peakedness_along_axis = peakedness(near, third, inner);
+        mean.peakedness_along_axis = peakedness(third, local_squares(near, third), inner);
     }
     return mean;
 }
@@ -162,7 +165,7 @@ double within_surface(const Positions& p, const Neighbours& near, const Array<Ve
         sizes[3 * v + 1] = noise[v].x();
         sizes[3 * v + 2] = noise[v].y();
     }
-    return std::sqrt(local_energies(near, sizes, inner_vertices(near)).quantile(0.1));
+    return std::sqrt(local_energies(near, local_squares(near, sizes), inner_vertices(near)).quantile(0.1));
 }
 
 }  // namespace
@@ -188,6 +191,21 @@ SurfaceNoise surface_noise(const Faces& faces, const Positions& positions, const
     const Array<Vec3> normal = smoothed(faces, positions, near, 3).normal;
     add_axis(found, normal, noise);
     noise.within_surface = within_surface(positions, near, normal);
+    return noise;
+}
+
+std::optional<SurfaceNoise> rounding_noise(const Faces& faces, const Positions& positions, const Incidence& at,
+                                           const Neighbours& near, double step, double edge) {
+    constexpr double least = 0.2, most = 6;
+    SurfaceNoise noise;
+    noise.along_normals = noise.at_least = noise.within_surface = step / std::sqrt(12.0);
+    noise.everywhere = true;
+    const Findings found = findings(faces, positions, at, near, edge, noise.along_normals > 0.12 * edge ? 8 : 3);
+    const double square = noise.along_normals * noise.along_normals;
+    // Steps as large as the edges make terraces, which are even; small ones do not.
+    const double nearly_everywhere = std::max(0.02, 0.5 - 2.5 * noise.along_normals / edge);
+    if (!(found.median > least * square && found.mean < most * square)) return std::nullopt;
+    if (!(found.low > nearly_everywhere * square)) return std::nullopt;
     return noise;
 }
 

@@ -13,6 +13,7 @@ struct SurfaceNoise {
     /// Of the vertices' places within the surface in each of two directions, mesh units: an upper bound of the noise
     /// there, for an irregular sampling looks the same.
     double within_surface = 0;
+    bool everywhere = false;  ///< it is known to go in all directions
     /// Beside the former two, which are what there is of it in all directions.
     std::optional<AxisNoise> axis;
 
@@ -33,5 +34,11 @@ struct SurfaceNoise {
 /// Cost: linear, about 120 passes over the neighbours
 SurfaceNoise surface_noise(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
                            double edge);
+
+/// Of rounding coordinates to a lattice of this step: uniform errors. Nothing unless third differences have a fair
+/// share of what those make: a shape may have been designed on a lattice, and rounding leaves planes along the axes
+/// even.
+std::optional<SurfaceNoise> rounding_noise(const Faces& faces, const Positions& positions, const Incidence& at,
+                                           const Neighbours& near, double step, double edge);
 
 }  // namespace multires

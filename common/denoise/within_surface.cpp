@@ -79,11 +79,17 @@ Positions turned_back(const Faces& faces, Positions p, const Neighbours& near, c
 }
 
 /// The shifts that Taubin's low passes make within the surface.
-std::vector<Positions> smoothed_within(const Positions& p, const Neighbours& near, const Array<Vec3>& normal) {
-    std::vector<Positions> shifts;
+/// @param shifts  those that are known, of the first low passes; the others up to `count` are added
+void smooth_within(const Positions& p, const Neighbours& near, const Array<Vec3>& normal, std::size_t count,
+                   std::vector<Positions>& shifts) {
     Positions q = p, next(p.size());
     int done = 0;
-    for (const int steps : low_passes) {
+    if (!shifts.empty()) {
+        parallel_for(near.rows(), [&](Index v) { q[v] += shifts.back()[v]; });
+        done = low_passes[shifts.size() - 1];
+    }
+    while (shifts.size() < count) {
+        const int steps = low_passes[shifts.size()];
         for (; done < steps; ++done)
             for (const double factor : {0.5, -0.53}) {
                 parallel_for(near.rows(), [&](Index v) {
@@ -95,7 +101,6 @@ std::vector<Positions> smoothed_within(const Positions& p, const Neighbours& nea
         shifts.emplace_back(p.size());
         parallel_for(near.rows(), [&](Index v) { shifts.back()[v] = q[v] - p[v]; });
     }
-    return shifts;
 }
 
 double mean_product(const Positions& a, const Positions& b) {
@@ -126,9 +131,7 @@ Positions noise_within(const Positions& p, const Neighbours& near, const Array<V
 /// does once the sampling was made even, and more if the sampling is uneven; faces that are folded by nature spoil this
 /// where it is weak, so the evidence must be stronger where the sampling alone would explain the places.
 void judge(const Faces& faces, const Positions& p, const Positions& more, const Positions& to_even,
-           const Array<Vec3>& normal, const SurfaceNoise& noise, bool weak, WithinSurface& out) {
-    const double irregular = noise.within_surface / noise.along_normals;
-    if (irregular < 0.95 || weak) return;
+           const Array<Vec3>& normal, double irregular, WithinSurface& out) {
     Positions even = p;
     for (std::size_t i = 0; i < p.size(); ++i) even[i] += to_even[i] + more[i];
     const double folded = folded_share(faces, p, normal), expected = folded_share(faces, even, normal);
@@ -138,10 +141,12 @@ void judge(const Faces& faces, const Positions& p, const Positions& more, const 
 
 /// The blend of the low passes with the least estimated error.
 void smooth_noise(const Positions& p, const Positions& noise, const Neighbours& near, const Array<Vec3>& normal,
-                  double deviation, const std::vector<Positions>& shift, WithinSurface& out) {
+                  double deviation, std::vector<Positions>& shift, WithinSurface& out) {
     Positions probed = p;
     for (std::size_t i = 0; i < p.size(); ++i) probed[i] += noise[i];
-    const std::vector<Positions> other = smoothed_within(probed, near, normal);
+    std::vector<Positions> other;
+    smooth_within(p, near, normal, low_passes.size(), shift);
+    smooth_within(probed, near, normal, low_passes.size(), other);
     const int count = static_cast<int>(shift.size());
     Risk risk;
     risk.constant = 2 * deviation * deviation;
@@ -174,13 +179,16 @@ WithinSurface relax_within_surface(const Faces& faces, const Positions& position
     Positions p = positions;
     for (std::size_t i = 0; i < p.size(); ++i) p[i] += h[3 * i] * normal[i];
 
-    const Positions more = noise_within(p, near, normal, deviation);
-    Positions worse = p;
-    for (std::size_t i = 0; i < p.size(); ++i) worse[i] += more[i];
-    const std::vector<Positions> low = smoothed_within(p, near, normal);
-    judge(faces, p, more, low[even_sampling], normal, noise, deviation < 0.08 * edge, out);
-    if (out.noisy || out.perhaps) {
-        smooth_noise(p, more, near, normal, deviation, low, out);
+    const double irregular = noise.within_surface / deviation;
+    if (noise.everywhere || (irregular >= 0.95 && deviation >= 0.08 * edge)) {
+        const Positions more = noise_within(p, near, normal, deviation);
+        std::vector<Positions> low;
+        smooth_within(p, near, normal, even_sampling + 1, low);
+        if (noise.everywhere)
+            out.noisy = true;
+        else
+            judge(faces, p, more, low[even_sampling], normal, irregular, out);
+        if (out.noisy || out.perhaps) smooth_noise(p, more, near, normal, deviation, low, out);
     }
     Positions q = p;
     for (std::size_t i = 0; i < p.size(); ++i) q[i] += out.smoothing[i];

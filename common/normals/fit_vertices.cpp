@@ -27,7 +27,7 @@ Vec3 within_surface(const Vec3& to_middle, const Vec3& normal_sum) {
 }  // namespace
 
 Positions fit_vertices(const Faces& faces, const Positions& positions, const Incidence& at, const Array<Vec3>& normals,
-                       int steps) {
+                       int steps, const std::vector<std::uint8_t>& moves) {
     const Index vertices = static_cast<Index>(positions.size()), count = static_cast<Index>(faces.size());
     Positions p = positions, next(positions.size()), centroid(faces.size());
     std::vector<std::uint8_t> crowded(faces.size());
@@ -37,6 +37,8 @@ Positions fit_vertices(const Faces& faces, const Positions& positions, const Inc
             crowded[f] = needs_room(faces[f], p, normals[f]);
         });
         parallel_for(vertices, [&](Index v) {
+            next[v] = p[v];
+            if (!moves.empty() && !moves[v]) return;
             Vec3 along(0, 0, 0), middle(0, 0, 0), normal_sum(0, 0, 0);
             Index members = 0, unpaired = 0;
             bool make_room = false;
@@ -50,7 +52,6 @@ Positions fit_vertices(const Faces& faces, const Positions& positions, const Inc
                 make_room |= crowded[f] != 0;
                 ++members;
             }
-            next[v] = p[v];
             if (members == 0) return;
             next[v] += along / members;
             // Inside, every neighbour is met twice and cancels out; on the boundary, sliding would eat into the mesh.

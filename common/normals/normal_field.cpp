@@ -3,6 +3,8 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "base/reduce.h"
+#include "normals/face_geometry.h"
+#include "normals/falling_weight.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,26 +31,6 @@ constexpr int energy_steps = 4;
 
 using Normals = Array<Vec3>;
 
-struct Geometry {
-    Normals normal;
-    std::vector<double> area;
-    Positions centroid;
-};
-
-Geometry geometry_of(const Faces& faces, const Positions& p) {
-    const Index count = static_cast<Index>(faces.size());
-    Geometry g{Normals(count), std::vector<double>(count), Positions(count)};
-    parallel_for(count, [&](Index f) {
-        const Vec3 &a = p[faces[f][0]], &b = p[faces[f][1]], &c = p[faces[f][2]];
-        const Vec3 n = (b - a).cross(c - a);
-        const double length = n.norm();
-        g.area[f] = length / 2;
-        g.normal[f] = length > 0 ? Vec3(n / length) : Vec3(Vec3::Zero());
-        g.centroid[f] = (a + b + c) / 3;
-    });
-    return g;
-}
-
 /// Median difference of the normals of faces with a common edge; 0 without such faces. Faces without a normal do not
 /// count.
 double median_difference(const FaceGraph& graph, const Normals& n) {
@@ -60,29 +42,6 @@ double median_difference(const FaceGraph& graph, const Normals& n) {
     d.erase(std::remove(d.begin(), d.end(), -1.0F), d.end());
     if (d.empty()) return 0;
     return upper_median(d);
-}
-
-/// Between centroids of faces with a common edge; 0 without such faces.
-double mean_distance(const FaceGraph& graph, const Geometry& g) {
-    const auto mean = chunked_fold<Mean>(graph.edges.size(), [&](Mean& part, std::size_t e) {
-        const Index a = graph.edges[e][0], b = graph.edges[e][1];
-        if (g.area[a] > 0 && g.area[b] > 0) part.add((g.centroid[a] - g.centroid[b]).norm());
-    });
-    return mean.value();
-}
-
-/// Area times the weight by distance, for every entry of the graph: the same in all steps.
-std::vector<double> spatial_weights(const FaceGraph& graph, const Geometry& g) {
-    const double sigma = reach * mean_distance(graph, g);
-    const double scale = sigma > 0 ? 1 / (2 * sigma * sigma) : 0;
-    std::vector<double> w(graph.neighbor.size());
-    parallel_for(static_cast<Index>(g.area.size()), [&](Index f) {
-        for (Index k = graph.offset[f]; k < graph.offset[f + 1]; ++k) {
-            const Index h = graph.neighbor[k];
-            w[k] = g.area[h] * std::exp(-(g.centroid[f] - g.centroid[h]).squaredNorm() * scale);
-        }
-    });
-    return w;
 }
 
 /// One bilateral step. Faces without a normal stay so.
@@ -100,7 +59,7 @@ Normals smoothed(const FaceGraph& graph, const std::vector<double>& spatial, con
         for (Index k = graph.offset[f]; k < graph.offset[f + 1]; ++k) {
             const Vec3& other = n[graph.neighbor[k]];
             const double exponent = (own - other).squaredNorm() * scale;
-            if (exponent < 40) sum += spatial[k] * std::exp(-exponent) * other;
+            if (exponent < 40) sum += spatial[k] * falling_weight(exponent) * other;
         }
         const double length = sum.norm();
         out[f] = length > 0 ? Vec3(sum / length) : own;
@@ -155,14 +114,14 @@ void add_detail(const FaceGraph& graph, const std::vector<double>& area, const N
 Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, const FaceGraph& graph,
                             const NormalFieldOptions& options, NormalFieldStats& stats,
                             const std::function<void(double)>& tick) {
-    const Geometry g = geometry_of(faces, positions);
+    const FaceGeometry g = face_geometry(faces, positions);
     stats = NormalFieldStats();
     stats.noise = median_difference(graph, g.normal);
     const double noise = options.strength * (options.noise > 0 ? options.noise : stats.noise);
     stats.left = stats.noise;
     if (!(noise > 0)) return g.normal;  // flat, or no two faces meet: there is nothing to take for noise
 
-    const std::vector<double> spatial = spatial_weights(graph, g);
+    const std::vector<double> spatial = spatial_weights(graph, g, reach);
     std::vector<Normals> levels;
     Normals n = g.normal;
     double factor = wide * options.strength;

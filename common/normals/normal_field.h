@@ -41,7 +41,8 @@ Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, cons
 /// its faces' centroids (Sun et al. 2007, eq. 8), `steps` times. Vertices of faces that are folded or nearly degenerate
 /// also move within the surface, towards the middle of their ring, until they are not.
 /// @param normals  #F; zero normals have no say
+/// @param moves    #V: vertices that are not to stay; empty: all
 Positions fit_vertices(const Faces& faces, const Positions& positions, const Incidence& at, const Array<Vec3>& normals,
-                       int steps);
+                       int steps, const std::vector<std::uint8_t>& moves = {});
 
 }  // namespace multires

@@ -7,8 +7,8 @@ import pytest
 from test_pymeshlab import Error, differences, new_document, rich_sphere, snapshot
 
 DENOISE = "apply_coord_multires_denoise"
-REPORT = {"noise", "noise_in_edges", "noise_in_all_directions", "noise_along_axis", "spikes_removed", "estimated_rms_before",
-          "estimated_rms_after", "share_low_pass", "share_wiener", "share_normal_field", "largest_displacement", "rms_displacement", "volume_before", "volume_after", "area_before",
+REPORT = {"noise", "noise_in_edges", "noise_in_all_directions", "noise_along_axis", "rounding_step", "spikes_removed",
+          "estimated_rms_before", "estimated_rms_after", "share_low_pass", "share_wiener", "share_normal_field", "share_guided_normals", "largest_displacement", "rms_displacement", "volume_before", "volume_after", "area_before",
           "area_after", "centroid_shift", "flipped_faces"}  # fmt: skip
 
 

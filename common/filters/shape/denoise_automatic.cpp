@@ -10,8 +10,8 @@ namespace {
 
 /// What each kind of candidate contributed.
 struct Shares {
-    double linear = 0, wiener = 0, field = 0;
-    double kept() const { return std::max(0.0, 1 - linear - wiener - field); }
+    double linear = 0, wiener = 0, field = 0, guided = 0;
+    double kept() const { return std::max(0.0, 1 - linear - wiener - field - guided); }
 };
 
 Shares shares_of(const Eigen::VectorXd& weights) {
@@ -31,6 +31,9 @@ Shares shares_of(const Eigen::VectorXd& weights) {
             break;
         case Family::normal_field:
             shares.field += t;
+            break;
+        case Family::guided_normals:
+            shares.guided += t;
             break;
         }
     }
@@ -53,12 +56,16 @@ void tell(const AutomaticStats& stats, const Shares& shares, Report& report) {
                    (stats.spikes > 0 ? "." : "; the mesh stays as it is."));
         return;
     }
+    if (stats.step > 0)
+        report.say(text("The coordinates were rounded to steps of %.4g edge lengths: no vertex leaves its cell.",
+                        stats.step / stats.edge));
     report.say(text("Noise of %.3g edge lengths along the normals%s%s.", stats.deviation / stats.edge,
                     stats.all_directions ? " and within the surface" : "",
                     stats.axis ? ", most of it along one axis of space" : ""));
     report.say(text("Blend: %.0f %% low pass, %.0f %% local Wiener filter, %.0f %% normal field (piecewise smooth), "
-                    "%.0f %% unchanged.",
-                    100 * shares.linear, 100 * shares.wiener, 100 * shares.field, 100 * shares.kept()));
+                    "%.0f %% guided normals after it (creases), %.0f %% unchanged.",
+                    100 * shares.linear, 100 * shares.wiener, 100 * shares.field, 100 * shares.guided,
+                    100 * shares.kept()));
     report.say(text("Expected RMS distance from the truth: %.3g edge lengths before, %.3g after.",
                     stats.rms_before / stats.edge, stats.rms_after / stats.edge));
 }
@@ -82,12 +89,14 @@ Positions by_automatic(const Layer& layer, const DenoiseOptions& o, double given
     report.add("noise_in_edges", o.strength > 0 && stats.edge > 0 ? stats.deviation / o.strength / stats.edge : 0.0);
     report.add("noise_in_all_directions", stats.all_directions);
     report.add("noise_along_axis", stats.axis);
+    report.add("rounding_step", stats.step, "mesh units");
     report.add("spikes_removed", static_cast<int>(stats.spikes));
     report.add("estimated_rms_before", stats.rms_before, "mesh units");
     report.add("estimated_rms_after", stats.rms_after, "mesh units");
     report.add("share_low_pass", shares.linear);
     report.add("share_wiener", shares.wiener);
     report.add("share_normal_field", shares.field);
+    report.add("share_guided_normals", shares.guided);
     if (o.strength > 0) tell(stats, shares, report);
     return after;
 }

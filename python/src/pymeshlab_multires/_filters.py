@@ -437,6 +437,8 @@ class DenoiseReport(Movement, Result):
     """Automatic: the noise was found within the surface too."""
     noise_along_axis: bool | None = None
     """Automatic: most of the noise goes along one axis of space."""
+    rounding_step: float | None = None
+    """Automatic: step that the coordinates were rounded to, if that is what the noise is; otherwise 0 (mesh units)."""
     spikes_removed: int | None = None
     """Vertices found to be impulses and set back first."""
     estimated_rms_before: float | None = None
@@ -449,6 +451,8 @@ class DenoiseReport(Movement, Result):
     """Automatic: weight of the local Wiener filters."""
     share_normal_field: float | None = None
     """Automatic: weight of the normal field."""
+    share_guided_normals: float | None = None
+    """Automatic: weight of guided normals after it."""
     noise_per_level: Array | None = None
     """Noise in the details of each level, finest first: of the normals, or with thresholding in mesh units."""
     normal_noise: float | None = None

@@ -1,0 +1,57 @@
+#include "denoise/lattice.h"
+
+#include "shapes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace multires {
+namespace {
+
+Positions rounded(Positions p, double step, const Vec3& origin) {
+    for (Vec3& v : p)
+        for (int k = 0; k < 3; ++k) v[k] = origin[k] + std::round((v[k] - origin[k]) / step) * step;
+    return p;
+}
+
+}  // namespace
+
+TEST(Lattice, StepIsFoundWhereverItsOriginIs) {
+    const Positions p = shapes::irregular_sphere(2000).positions;
+    for (const double step : {0.004, 0.031, 0.1})
+        for (const Vec3& origin : {Vec3(0, 0, 0), Vec3(0.3, -0.011, 7)}) {
+            const auto found = lattice_step(rounded(p, step, origin), 0.001);
+            ASSERT_TRUE(found) << step;
+            EXPECT_NEAR(*found, step, 1e-9 * step);
+        }
+}
+
+TEST(Lattice, StepIsFoundInSinglePrecision) {
+    Positions p = rounded(shapes::irregular_sphere(2000).positions, 0.031, Vec3(0.3, 2, 0));
+    for (Vec3& v : p) v = v.cast<float>().cast<double>();
+    const auto found = lattice_step(p, 0.001);
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(*found, 0.031, 1e-6);
+}
+
+TEST(Lattice, IsNotSeenWhereThereIsNone) {
+    const Positions p = shapes::irregular_sphere(2000).positions;
+    EXPECT_FALSE(lattice_step(p, 0.001));
+    EXPECT_FALSE(lattice_step(rounded(p, 0.004, Vec3(0, 0, 0)), 0.01)) << "finer than asked for";
+    Positions one_off = rounded(p, 0.1, Vec3(0, 0, 0));
+    one_off[7].y() += 0.03;
+    EXPECT_FALSE(lattice_step(one_off, 0.02));
+    EXPECT_FALSE(lattice_step(Positions(), 0.01));
+    EXPECT_FALSE(lattice_step(Positions(5, Vec3::Zero()), 0.01));
+}
+
+TEST(Lattice, CellsHoldEachCoordinate) {
+    Positions p{Vec3(1, 2, 3), Vec3(1.04, 2.2, 2.7)};
+    const Positions centers{Vec3(1, 2, 3), Vec3(1, 2, 3)};
+    keep_within_cells(centers, 0.1, p);
+    EXPECT_EQ(p[0], Vec3(1, 2, 3));
+    EXPECT_NEAR((p[1] - Vec3(1.04, 2.05, 2.95)).norm(), 0, 1e-12);
+}
+
+}  // namespace multires
