@@ -47,6 +47,8 @@ EXAMPLES = {
                              ("apply_coord_multires_denoise", {"features": "selected edges"})]),
     "roughness": ("Logs the texture parameters of ISO 25178 of the whole surface over its low pass.",
                   [("compute_multires_roughness", {"selected": False})]),
+    "multiband": ("Softens the finest of five bands and strengthens the two after it, over a smooth base.",
+                  [("apply_coord_multires_bands", {"gain_1": 0.5, "gain_2": 1.5, "gain_3": 1.5})]),
     "fewer-faces": ("A new layer within 0.05 % (RMS) of the input, with as few vertices as are found.",
                     [("generate_multires_adaptive_reconstruction", {"target": "RMS distance", "unit": "percent",
                                                                     "error": 0.05})]),

@@ -249,8 +249,7 @@ const Plugin& table() {
                 transfer_edit_defaults, bind_transfer_edit, transfer_edit),
             filter({"Multiresolution: Move Region", "apply_coord_multires_displace",
                     std::string("Turns, scales and moves the selected part of a layer; the surface around it follows "
-                                "smoothly up to a distance along the surface, and its detail turns with it. Without a "
-                                "selection the whole layer moves.<br>") +
+                                "smoothly up to a distance along the surface, and its detail turns with it.<br>") +
                         cite_guskov,
                     MenuClass::remeshing, faces, none, vertex_positions | vertex_quality, change_returns},
                    move_region_defaults, bind_move_region, move_region),

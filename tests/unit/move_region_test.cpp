@@ -107,13 +107,17 @@ TEST(MoveRegion, MovesTheRegionAsARigidBodyAndNothingBeyondTheFalloff) {
     }
 }
 
-TEST(MoveRegion, WithoutASelectionMovesTheWholeLayer) {
+TEST(MoveRegion, WithoutASelectionSaysWhatToSelect) {
     const Layer layer = layer_of(shapes::scan(1000));
     MoveRegionOptions options;
+    EXPECT_EQ(*move(layer, options).positions, layer.mesh.positions);
     options.translation = {1, 0, 0};
-    const Positions after = *move(layer, options).positions;
-    for (std::size_t v = 0; v < after.size(); ++v)
-        EXPECT_LT((after[v] - layer.mesh.positions[v] - Vec3(1, 0, 0)).norm(), 1e-15);
+    try {
+        move(layer, options);
+        FAIL();
+    } catch (const InputError& e) {
+        EXPECT_NE(std::string(e.what()).find("select the vertices or faces"), std::string::npos);
+    }
 }
 
 // A plane with bumps, one side of it lifted: bumps that follow stand upright on the slope.

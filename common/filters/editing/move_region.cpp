@@ -16,10 +16,11 @@
 namespace multires {
 namespace {
 
+bool nothing_selected(const Layer& layer) { return layer.selected_vertex.empty() && layer.selected_face.empty(); }
+
 std::vector<double> falloff_of(const Layer& layer, const FalloffOptions& options, const Progress& progress) {
     require(options.falloff >= 0 && std::isfinite(options.falloff), "falloff must be a number, 0 or more");
-    if (layer.selected_vertex.empty() && layer.selected_face.empty())
-        return std::vector<double>(layer.mesh.positions.size(), 1);
+    if (nothing_selected(layer)) return std::vector<double>(layer.mesh.positions.size(), 1);
     Region region;
     region.selected = true;
     const std::vector<double> selected = region_weights(layer, region);
@@ -75,6 +76,7 @@ void turn_details(const Mesh& mesh, const MoveRegionOptions& o, const Positions&
 Result falloff_quality(const Layer& layer, const FalloffOptions& options, Session& session) {
     require_usable(layer.mesh);
     Result result;
+    if (nothing_selected(layer)) result.report.say("Nothing is selected: the whole layer counts as the region.");
     result.quality = falloff_of(layer, options, session.progress);
     const auto between =
         std::count_if(result.quality->begin(), result.quality->end(), [](double t) { return t > 0 && t < 1; });
@@ -89,9 +91,13 @@ Result move_region(const Layer& layer, const MoveRegionOptions& options, Session
     check(options);
     Result result;
     const Progress whole = session.progress;
-    std::vector<double> t = falloff_of(layer, options.between, whole.part(0, 0.5));
     const Positions& x = layer.mesh.positions;
     const bool still = options.angle == 0 && options.scale == 1 && options.translation == Vec3::Zero();
+    require(still || !nothing_selected(layer),
+            "Nothing is selected: select the vertices or faces that are to move. The "
+            "surface around them follows up to falloff");
+    if (still) result.report.say("No motion is given: set translation, angle or scale.");
+    std::vector<double> t = falloff_of(layer, options.between, whole.part(0, 0.5));
     Positions after = still ? x : moved(options, x, t);
     const bool between = std::any_of(t.begin(), t.end(), [](double w) { return w > 0 && w < 1; });
     if (options.details_follow && between && !still) {

@@ -30,9 +30,9 @@ struct MoveRegionOptions {
 /// With the falloff t, 1 inside and 0 far away, a point x goes to  pivot + scale^t R(t angle) (x - pivot) + t
 /// translation: rotations are interpolated, not displacements. Details that follow: this is done to the layer without
 /// what is finer than half the falloff, and the rest is carried along by the change of the surface around each vertex.
-/// The region itself moves as a rigid body, and what lies beyond the falloff does not move, bit for bit. Without a
-/// selection the whole layer moves. A motion that is none gives the layer back bit for bit.
-/// @throws InputError  as above
+/// The region itself moves as a rigid body, and what lies beyond the falloff does not move, bit for bit. A motion
+/// that is none gives the layer back bit for bit.
+/// @throws InputError  as above, and for a motion without a selection
 Result move_region(const Layer& layer, const MoveRegionOptions& options, Session& session);
 
 }  // namespace multires
