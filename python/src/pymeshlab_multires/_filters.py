@@ -1172,7 +1172,7 @@ def unsharp(
 @also_flat(Pyramid)
 def denoise(
     ms: MeshSet, *, method: Literal["normal field", "soft threshold", "hard threshold", "automatic"] = "automatic",
-    threshold_unit: Literal["automatic", "mesh units", "percent"] = "automatic", threshold: float = 0.0,
+    threshold_unit: Literal["automatic", "mesh units", "percent", "share"] = "automatic", threshold: float = 0.0,
     strength: float = 1.0, keep_volume: bool = False, confidence: bool = False, selected: bool | None = None,
     quality_mask: bool = False, relative_to: RelativeTo = "current shape", finest_level: int = 0,
     coarsest_level: int = 5, per_level: bool = True, normal_only: bool = False, cycle_spins: int = 1,
@@ -1190,7 +1190,8 @@ def denoise(
             over several scales and moves the vertices to fit; tunes itself and keeps sharp edges. Soft threshold:
             shrinks the pyramid's details (Roy). Hard threshold: drops small details and leaves large ones.
         threshold_unit: Automatic: from the noise found in the mesh. Mesh units, or percent of the diagonal of the
-            bounding box: the value below.
+            bounding box: the value below. Share, for the threshold methods: the value below is the percentage of the
+            details that goes, the shortest of all levels chosen.
         threshold: Size of the noise if the threshold is not automatic: its standard deviation for automatic and normal
             field, the length up to which details are dropped for the others. A number, at least 0.
         strength: Factor for the noise: 1 removes the noise found, 2 takes twice as much for noise, 0 changes nothing.
@@ -1282,8 +1283,6 @@ def move_region(
 ) -> MoveRegionReport:
     """Turns, scales and moves the selected part of a layer; the surface around it follows smoothly up to a distance
     along the surface, and its detail turns with it.
-
-    Without a selection the whole layer moves.
 
     The filter apply_coord_multires_displace, on the current mesh; the mesh is unchanged if it fails.
 
