@@ -2,8 +2,8 @@
 //                                                   make_meshes --stone SEED FILE
 //
 // One file per class of shapes::every_class(), nan.ply and infinity.ply, terrain.ply with its colours, texture
-// coordinates and scalar, and, if a number is given, scan_<number>.ply of about that many vertices. Or an engraved
-// stone with the depth of its letters as quality.
+// coordinates and scalar, grid.ply with the same on a triangular grid, and, if a number is given, scan_<number>.ply of
+// about that many vertices. Or an engraved stone with the depth of its letters as quality.
 
 #include "shapes.h"
 
@@ -70,6 +70,8 @@ void write_all(const std::filesystem::path& folder) {
     for (const auto& [name, mesh] : shapes::every_class()) Ply(mesh).write(folder / (name + ".ply"));
     const shapes::Terrain terrain = shapes::terrain(64);
     Ply(terrain.mesh, &terrain).write(folder / "terrain.ply");
+    const shapes::Terrain grid = shapes::regular_terrain(48);
+    Ply(grid.mesh, &grid).write(folder / "grid.ply");
     Ply(shapes::not_finite(std::numeric_limits<double>::quiet_NaN())).write(folder / "nan.ply");
     Ply(shapes::not_finite(std::numeric_limits<double>::infinity())).write(folder / "infinity.ply");
 }

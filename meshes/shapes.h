@@ -93,6 +93,9 @@ struct Terrain {
 /// n by n quadrilaterals, as plane().
 Terrain terrain(Index n, const Irregular& options = {});
 
+/// The same on a triangular grid, rough: every vertex has a step of its own, a twentieth of an edge.
+Terrain regular_terrain(Index n);
+
 /// A closed irregular surface with bumps on all scales, as a scanner would give it; about `vertices` vertices (the
 /// nearest number 10 n^2 + 2, up to 100 million). The bumps' amplitudes fall with their wavelengths, down to 4 edges.
 Mesh scan(Index vertices, const Irregular& options = {});
@@ -114,6 +117,26 @@ struct EngravedStoneOptions {
 };
 
 EngravedStone engraved_stone(const EngravedStoneOptions& options = {});
+
+// ---- Triangular grids
+// ------------------------------------------------------------------------------------------------
+
+/// Which diagonals the cells of a grid are cut along. Alternating ones make no triangular grid.
+enum class GridCut { first, second, alternating };
+
+struct GridShape {
+    Index rows = 24, columns = 30;  ///< points
+    GridCut cut = GridCut::first;
+    bool triangle = false;  ///< only the points with i + j less than rows and columns
+    double hole = 0;        ///< radius of a round hole, in cells
+    double missing = 0;     ///< probability of each face to be left out
+    double noise = 0.2;     ///< of heights, in cells
+    std::uint64_t seed = 1;
+};
+
+/// A terrain on a triangular grid, facing up: cells of size 1, a ridge, hills and noise. Vertices whose faces are all
+/// missing stay.
+Mesh grid_terrain(const GridShape& shape = {});
 
 // ---- Joining
 // ---------------------------------------------------------------------------------------------------------

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace multires::shapes {
 
@@ -82,10 +83,11 @@ BandedSphere banded_sphere(const BandedSphereOptions& options) {
     return result;
 }
 
-Terrain terrain(Index n, const Irregular& options) {
+namespace {
+
+Terrain terrain_on(Mesh flat, Index n, Random random) {
     Terrain result;
-    result.mesh = plane(n, options);
-    Random random(options.seed + 1);
+    result.mesh = std::move(flat);
     std::vector<Wave> waves = octaves(1, 8.0 / n, 0.03, random);
     for (Wave& w : waves) w.frequency.z() = 0;
     for (Vec3& p : result.mesh.positions) {
@@ -98,6 +100,23 @@ Terrain terrain(Index n, const Irregular& options) {
         const double front = p.y() > 0.5 + 0.1 * std::sin(2 * pi * p.x()) ? 5 : 0;
         result.scalar.push_back(15 + 10 * std::sin(pi * p.x()) + front);
     }
+    return result;
+}
+
+}  // namespace
+
+Terrain terrain(Index n, const Irregular& options) {
+    return terrain_on(plane(n, options), n, Random(options.seed + 1));
+}
+
+Terrain regular_terrain(Index n) {
+    GridShape shape;
+    shape.rows = shape.columns = n + 1;
+    Mesh flat = grid_terrain(shape);
+    for (Vec3& p : flat.positions) p = Vec3(p.x() / n, p.y() / n, 0);
+    Terrain result = terrain_on(std::move(flat), n, Random(2));
+    Random random(3);
+    for (Vec3& p : result.mesh.positions) p.z() += random.uniform(-0.05, 0.05) / n;
     return result;
 }
 

@@ -20,15 +20,15 @@ COMMON = {
     "bands": ["base", "mesh", "measure", "solvers"],
     "pyramid": ["base", "mesh", *FLOOR, "solvers", "schemes"],
     "denoise": ["base", "mesh", *FLOOR],
-    "filters": ["base", "mesh", *FLOOR, "solvers", "bands", "schemes", "pyramid", "denoise",
-                "editing"],
+    "grids": ["base", "mesh"],
+    "filters": ["base", "mesh", *FLOOR, "solvers", "bands", "schemes", "pyramid", "denoise", "editing", "grids"],
 }
 PLUGINS = {
     "shared": list(COMMON),
     "host": ["shared", *COMMON],
     "filter": ["shared", *COMMON],  # plugins/filter_*: one table each, which know neither each other nor the host
 }
-KINDS = ["shape", "attributes", "layers", "editing", "analysis"]  # of filters: rooms of their own below common/filters/
+KINDS = ["shape", "attributes", "layers", "editing", "analysis", "grid"]  # of filters: rooms of their own below common/filters/
 VCGLIB = re.compile(r"#include <(vcg|wrap)/")
 QT_OR_MESHLAB = re.compile(r"#include <(Q\w+|common/.*)>")
 INCLUDE = re.compile(r'#include "([^"/]+)/')

@@ -33,6 +33,11 @@ FUNCTIONS = {
     "apply_attributes_multires_denoise": "denoise_attributes",
     "generate_multires_texcoord": "generate_texcoord",
     "generate_multires_adaptive_reconstruction": "adaptive_reconstruction",
+    "compute_multires_grid": "grid",
+    "apply_coord_multires_grid_band": "grid_band",
+    "apply_coord_multires_grid_compress": "grid_compress",
+    "generate_multires_grid_level": "grid_level",
+    "apply_coord_multires_grid_edit": "grid_edit",
 }
 
 

@@ -282,6 +282,7 @@ PAIRS = {
         meshed,
         ", RMS 0.05 %",
     ),
+    **dict.fromkeys(name for name in FUNCTIONS if "multires_grid" in name),  # grid_picture()
 }
 
 
@@ -361,6 +362,61 @@ def stone(path):
     rendering.contact_sheet(panels, camera, 420, close_ups=False).save(path, "WEBP", quality=82, method=6)
 
 
+def mountains(n=160):
+    """A made-up terrain on a triangular grid: ridges of all sizes. Vertices and faces."""
+    i, j = np.mgrid[:n, :n] / n
+    random, z = np.random.default_rng(4), np.zeros((n, n))
+    for octave in range(6):
+        turn, shift = random.uniform(0, 7, 2), random.uniform(0, 7, 2)
+        for angle in turn:
+            wave = np.cos(angle) * i + np.sin(angle) * j + 0.1 * np.sin(9 * i + shift[0]) * np.cos(8 * j + shift[1])
+            z += 0.14 * 0.55**octave * (1 - np.abs(np.sin(2.3 * 2**octave * wave + shift[0])))
+    corner = (np.arange(n - 1)[:, None] * n + np.arange(n - 1)).ravel()[:, None]
+    faces = np.vstack([corner + [0, n, n + 1], corner + [0, n + 1, 1]])
+    return np.column_stack([i.ravel(), j.ravel(), z.ravel()]), faces
+
+
+def grid_panels(name, v, f):
+    """A filter of triangular grids on the mountains."""
+    ms = document(v, f)
+    panels = [shaded("Before", f"{len(v):,} vertices", ms)]
+    if name == "compute_multires_grid":
+        for basis in ("linear", "quartic"):
+            now = document(v, f)
+            now.apply_filter("generate_multires_grid_level", level=3, refine=3, basis=basis)
+            panels.append(shaded(f"Level 3, {basis}", "its control points' surface", now))
+    if name == "apply_coord_multires_grid_band":
+        ms.apply_filter(name, gains="0.5, 2, 3, 2")
+        panels.append(shaded("Grid band", "gains 0.5, 2, 3, 2", ms))
+    if name == "apply_coord_multires_grid_compress":
+        for share in (10, 1):
+            now = document(v, f)
+            now.apply_filter(name, share=share, channels="heights")
+            panels.append(shaded("Grid compress", f"{share} % of the coefficients", now))
+    if name == "generate_multires_grid_level":
+        ms.apply_filter(name, level=3, basis="linear")
+        panels.append(meshed("Grid level", ", level 3", ms))
+    if name == "apply_coord_multires_grid_edit":
+        ms.apply_filter("generate_multires_grid_level", level=4, basis="linear")
+        control = ms.current_mesh().vertex_matrix()
+        control[:, 2] += 0.35 * np.exp(-25 * ((control[:, :2] - 0.55) ** 2).sum(axis=1))
+        ms.add_mesh(pymeshlab.Mesh(control, ms.current_mesh().face_matrix()))
+        panels.append(meshed("Control mesh", ", level 4, edited", ms))
+        ms.set_current_mesh(0)
+        ms.apply_filter(name, edited=2, basis="linear")
+        panels.append(shaded("Grid edit", "the terrain follows", ms))
+    return panels
+
+
+def grid_picture(name, path):
+    v, f = mountains()
+    view = np.array([[0.71, -0.71, 0], [0.45, 0.45, 0.77], [-0.54, -0.54, 0.64]])
+    half = 0.72 if "band" in name or "compress" in name else 0.8
+    camera = rendering.Camera(*view, (v.min(axis=0) + v.max(axis=0)) / 2, half)
+    sheet = rendering.contact_sheet(grid_panels(name, v, f), camera, 360, close_ups=False)
+    sheet.save(path, "WEBP", quality=80, method=6)
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--only", nargs="*", help="names of filters, or top")
@@ -375,6 +431,9 @@ def main():
             continue
         if name == "compute_scalar_multires_relief_per_vertex":
             stone(arguments.output / "relief.webp")
+            continue
+        if "multires_grid" in name:
+            grid_picture(name, arguments.output / f"{FUNCTIONS[name].replace('_', '-')}.webp")
             continue
         panels = top(v, f) if name == "top" else levels(v, f) if PAIRS[name] is None else pair(name, v, f)
         camera = rendering.three_quarter_camera(v, f)

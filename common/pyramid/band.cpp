@@ -13,8 +13,8 @@ namespace {
 /// A limit as octaves of wavelength, finer = smaller, so that all units share one axis.
 class Axis {
 public:
-    Axis(const Pyramid& pyramid, Unit unit, double diagonal)
-        : levels_(pyramid.levels()), unit_(unit), diagonal_(diagonal) {}
+    Axis(const std::vector<LevelInfo>& levels, Unit unit, double diagonal)
+        : levels_(levels), unit_(unit), diagonal_(diagonal) {}
 
     double octave(double limit) const {
         switch (unit_) {
@@ -118,7 +118,7 @@ void check(const Band& band, double diagonal) {
 }
 
 double wavelength_of(const Pyramid& pyramid, Unit unit, double limit) {
-    return std::exp2(Axis(pyramid, unit, 0).octave(limit));
+    return std::exp2(Axis(pyramid.levels(), unit, 0).octave(limit));
 }
 
 Band default_band(const Layer& layer, Unit unit) {
@@ -134,19 +134,17 @@ double default_cutoff(const Layer& layer, Unit unit) {
     return in_unit(layer, finest_wavelength(layer, unit), times_finest(layer, 4, 0.5), unit);
 }
 
-std::vector<double> band_share(const Pyramid& pyramid, const Band& band, double diagonal) {
+std::vector<double> band_share(const std::vector<LevelInfo>& levels, const Band& band, double diagonal) {
     check(band, diagonal);
-    const Axis axis(pyramid, band.unit, diagonal);
+    const Axis axis(levels, band.unit, diagonal);
     const double none = -std::numeric_limits<double>::infinity();
     // Limits at or beyond the ends leave out nothing: 0 is "as fine as there is".
-    const bool from_finest =
-        band.unit == Unit::vertices ? band.finest >= pyramid.levels()[0].vertices : band.finest <= 0;
-    const bool to_coarsest =
-        (band.unit == Unit::vertices && band.coarsest <= pyramid.levels().back().vertices) ||
-        (band.unit == Unit::level && band.coarsest >= static_cast<double>(pyramid.levels().size() - 1));
+    const bool from_finest = band.unit == Unit::vertices ? band.finest >= levels[0].vertices : band.finest <= 0;
+    const bool to_coarsest = (band.unit == Unit::vertices && band.coarsest <= levels.back().vertices) ||
+                             (band.unit == Unit::level && band.coarsest >= static_cast<double>(levels.size() - 1));
     const double low = from_finest ? none : axis.octave(band.finest);
     const double high = to_coarsest ? -none : axis.octave(band.coarsest);
-    const std::size_t count = pyramid.levels().size() - 1;
+    const std::size_t count = levels.size() - 1;
     std::vector<double> share(count);
     for (std::size_t k = 0; k < count; ++k) {
         const double a = axis.at_level(static_cast<double>(k)), b = axis.at_level(static_cast<double>(k + 1));
@@ -155,6 +153,10 @@ std::vector<double> band_share(const Pyramid& pyramid, const Band& band, double 
         share[k] = std::clamp(above_low - above_high, 0.0, 1.0);
     }
     return share;
+}
+
+std::vector<double> band_share(const Pyramid& pyramid, const Band& band, double diagonal) {
+    return band_share(pyramid.levels(), band, diagonal);
 }
 
 std::vector<double> band_gains(const Pyramid& pyramid, const Band& band, double diagonal, double gain) {

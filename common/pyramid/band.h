@@ -33,6 +33,8 @@ double wavelength_of(const Pyramid& pyramid, Unit unit, double limit);
 /// belongs to it in part, so that results change steadily with the limits.
 /// @throws InputError if the limits are not finite, out of range or out of order
 std::vector<double> band_share(const Pyramid& pyramid, const Band& band, double box_diagonal);
+/// The same of levels that no pyramid of collapses has.
+std::vector<double> band_share(const std::vector<LevelInfo>& levels, const Band& band, double box_diagonal);
 
 /// Gains for synthesis: 1 outside the band, `gain` inside, between them at its edges.
 std::vector<double> band_gains(const Pyramid& pyramid, const Band& band, double box_diagonal, double gain);

@@ -1,5 +1,6 @@
 #include "all_tables.h"
 #include "allocation_faults.h"
+#include "suited.h"
 #include "variants.h"
 
 #include "../unit/attribute_fixtures.h"
@@ -21,13 +22,17 @@ using namespace plugin;
 using faults::Shortage;
 
 /// A closed surface with a boundary, a non-manifold and an unreferenced vertex, and every attribute.
-Layer small_layer() {
+Mesh small_mesh() {
     Mesh mesh = shapes::irregular_sphere(42, {0.3, 0.3, 5});
     mesh.faces.resize(mesh.faces.size() - 3);
     mesh = shapes::join(mesh, shapes::tetrahedron(), {3, 0, 0});
     const auto last = static_cast<Index>(mesh.positions.size()) - 1;
     mesh.faces.push_back({last, 0, 1});  // a fin that touches both parts
     mesh.positions.push_back({0, 3, 0});
+    return mesh;
+}
+
+Layer small_layer(Mesh mesh) {
     Layer layer = fixtures::with_everything(std::move(mesh), fixtures::random_value);
     layer.selected_vertex.assign(layer.mesh.positions.size(), 0);
     std::fill_n(layer.selected_vertex.begin(), 20, 1);
@@ -47,7 +52,7 @@ std::vector<double> run(const Filter& filter, const Layer& layer, const std::map
 class FilterFaults : public testing::TestWithParam<const Filter*> {
 protected:
     const Filter& filter() const { return *GetParam(); }
-    const Layer layer = small_layer();
+    const Layer layer = small_layer(suited(filter(), small_mesh()));
 
     /// Lets every `stride`-th allocation fail. @return allocations of a call that succeeds
     long starve(const Variant& variant, Shortage shortage, long first, long stride) {
@@ -117,21 +122,23 @@ TEST_P(FilterFaults, NoMemoryInAnyVariantIsAnError) {
 TEST_P(FilterFaults, NoMemoryInAnyThreadIsAnErrorAndTheThreadsGoOn) {
     const fixtures::Threads two(2);
     // Enough for several chunks in a loop.
-    Layer large = fixtures::with_everything(shapes::irregular_sphere(5000, {}), fixtures::random_value);
+    const Mesh mesh = suited(filter(), shapes::irregular_sphere(5000, {}));
+    const Layer large = fixtures::with_everything(mesh, fixtures::random_value);
     std::map<std::string, double> values;
+    if (wants_grid(filter())) values = variants(filter(), large)[0].values;
     const std::vector<double> expected = run(filter(), large, values);
     long made = 0;
     {
         Session session;
         faults::count();
-        plugin::run(filter(), large, session);
+        plugin::run(filter(), large, session, values);
         made = faults::stop();
     }
     for (int i = 0; i < 12; ++i) {
         Session session;
         faults::fail_at(made * i / 12 + i);
         try {
-            plugin::run(filter(), large, session);
+            plugin::run(filter(), large, session, values);
         } catch (const std::bad_alloc&) {
         }
         faults::stop();

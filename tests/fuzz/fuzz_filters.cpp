@@ -36,10 +36,27 @@ std::vector<std::uint8_t> bits(std::size_t count, int most, Bytes& in) {
     return out;
 }
 
-Layer layer_from(Bytes& in) {
+/// A grid with some other faces among its own.
+void add_grid(Mesh& mesh, Bytes& in) {
+    const int rows = 2 + in.below(10), columns = 2 + in.below(10);
+    for (int i = 0; i < rows; ++i)
+        for (int j = 0; j < columns; ++j) mesh.positions.emplace_back(j, i, in.number());
+    for (int i = 0; i + 1 < rows; ++i)
+        for (int j = 0; j + 1 < columns; ++j) {
+            const Index a = i * columns + j, d = a + columns;
+            const int damage = in.byte();
+            if (damage != 1) mesh.faces.push_back({a, a + 1, d + 1});
+            if (damage != 2) mesh.faces.push_back({a, d + 1, d});
+            if (damage == 3) mesh.faces.push_back({in.below(rows * columns), in.below(rows * columns), a});
+        }
+}
+
+Layer layer_from(bool grid, Bytes& in) {
     Layer layer;
     Mesh& mesh = layer.mesh;
-    const int vertices = in.below(64), faces = vertices ? in.below(128) : 0;
+    if (grid && (in.byte() & 3)) add_grid(mesh, in);
+    const bool done = !mesh.faces.empty();
+    const int vertices = done ? 0 : in.below(64), faces = vertices ? in.below(128) : 0;
     for (int i = 0; i < vertices; ++i) {
         const double x = in.number(), y = in.number(), z = in.number();
         mesh.positions.emplace_back(x, y, z);
@@ -119,7 +136,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const plugin::Filter& filter = *fuzz::filters()[in.below(static_cast<int>(fuzz::filters().size()))];
     // The mesh last, so that longer inputs are larger meshes.
     fuzz::Bytes rest(data + std::min<std::size_t>(size, 64), size - std::min<std::size_t>(size, 64));
-    const Layer layer = fuzz::layer_from(rest);
+    const Layer layer = fuzz::layer_from(plugin::wants_grid(filter), rest);
     const plugin::Given given = fuzz::parameters(filter, layer, in);
     Session session;
     try {

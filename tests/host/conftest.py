@@ -24,6 +24,11 @@ def wants_another_layer(name):
     return any(p["type"] == "layer" for p in parameters)
 
 
+def wants_grid(name):
+    """Whether the filter of that Python name refuses all meshes but triangular grids."""
+    return "multires_grid" in name
+
+
 @pytest.fixture(scope="session")
 def meshes(tmp_path_factory):
     """A folder of generated meshes, a PLY file for each class of mesh."""

@@ -64,6 +64,7 @@ RichParameterList small_parameters_of(const Action& action, const MeshDocument& 
     RichParameterList list = parameters_of(action, document);
     if (list.hasParameter("base_vertices")) list.setValue("base_vertices", IntValue(8));
     if (list.hasParameter("level")) list.setValue("level", IntValue(1));
+    if (list.hasParameter("oracle")) list.setValue("oracle", IntValue(0));
     return list;
 }
 
@@ -110,11 +111,15 @@ void enrich(MeshModel& model) {
     }
 }
 
-void fill(MeshDocument& document, Content content) {
-    Mesh mesh = content == Content::large ? shapes::scan(200000) : shapes::irregular_sphere(42, {0.3, 0.3, 5});
+void fill(MeshDocument& document, const Action& action, Content content) {
+    const bool grid = action.name.find("multires_grid") != std::string::npos, large = content == Content::large;
+    Mesh mesh = grid    ? shapes::grid_terrain(large ? shapes::GridShape{450, 450} : shapes::GridShape{6, 7})
+                : large ? shapes::scan(200000)
+                        : shapes::irregular_sphere(42, {0.3, 0.3, 5});
     mesh.faces.resize(mesh.faces.size() - 3);
     mesh.positions.push_back({0, 3, 0});
     Mesh edited = mesh;  // what filters of two layers take: Follow Edited Layer a copy of the layer itself
+    if (grid) edited.faces.erase(edited.faces.begin() + 7), edited.positions.pop_back();  // as it is deleted below
     for (Vec3& p : edited.positions) p.x() += 0.01 * p.y() * p.y();
     add(document, edited, "another");
     MeshModel& model = add(document, mesh, "mesh");

@@ -45,7 +45,8 @@ enum class Content {
     large        ///< with every data, and so many vertices that arrays of them are made of whole pages
 };
 
-/// Two layers, the second current: a surface with a boundary, selections and deleted elements.
-void fill(MeshDocument& document, Content content = Content::everything);
+/// Two layers, the second current: a surface with a boundary, selections and deleted elements; one that the filter
+/// takes.
+void fill(MeshDocument& document, const Action& action, Content content = Content::everything);
 
 }  // namespace multires::host_tests

@@ -21,7 +21,7 @@ void repeat(int calls) {
     for (int i = 0; i < calls; ++i)
         for (const Action& action : actions()) {
             MeshDocument document;
-            fill(document);
+            fill(document, action);
             call(action, document);
         }
 }
@@ -38,8 +38,9 @@ int main(int argc, char** argv) {
         std::printf("%zu filters, %d calls each\n", actions().size(), calls);
         if (argc > 2) {
             left = new MeshDocument;
-            fill(*left);
-            call(action_named("compute_multires_pyramid"), *left);
+            const Action& action = action_named("compute_multires_pyramid");
+            fill(*left, action);
+            call(action, *left);
         } else {
             unload();
         }

@@ -8,7 +8,7 @@ import sys
 import numpy as np
 import pymeshlab
 import pytest
-from conftest import FILTERS, PLUGINS, wants_another_layer
+from conftest import FILTERS, PLUGINS, wants_another_layer, wants_grid
 from conftest import FILTER_IDS as EVERY_ID
 from test_pymeshlab import Error, differences, new_document, rich_sphere, snapshot
 
@@ -16,8 +16,8 @@ SHARED = pathlib.Path(__file__).resolve().parents[3] / "shared/meshes"
 NASTY = sorted(p for p in SHARED.glob("nasty/*") if p.suffix != ".mtl")
 BUNNY = pathlib.Path(pymeshlab.__file__).parent / "tests/sample_meshes/bunny.obj"
 
-# Those of one layer; the others are tested in test_layers.py.
-FILTER_IDS = [name for name in EVERY_ID if not wants_another_layer(name)]
+# Those of one layer that take every mesh; the others are tested in test_layers.py and test_grids.py.
+FILTER_IDS = [name for name in EVERY_ID if not wants_another_layer(name) and not wants_grid(name)]
 
 PYRAMID, LEVEL = "compute_multires_pyramid", "generate_multires_level"
 DETAIL = "compute_scalar_multires_detail_per_vertex"

@@ -6,7 +6,7 @@ import sys
 import numpy as np
 import pymeshlab
 import pytest
-from conftest import BUILD, FILTER_IDS, FILTERS, citations, load_plugins, wants_another_layer
+from conftest import BUILD, FILTER_IDS, FILTERS, citations, load_plugins, wants_another_layer, wants_grid
 
 ROOT = BUILD.parents[1]
 sys.path.insert(0, str(ROOT / "tools"))
@@ -37,12 +37,12 @@ MORE = {
 }  # fmt: skip
 
 
-def terrain(meshes, another_layer=False):
+def terrain(meshes, another_layer=False, name="terrain"):
     """A document with a mesh that has every kind of attribute."""
     ms = pymeshlab.MeshSet(verbose=False)
     if another_layer:
-        ms.load_new_mesh(str(meshes / "disk.ply"))
-    ms.load_new_mesh(str(meshes / "terrain.ply"))
+        ms.load_new_mesh(str(meshes / ("grid.ply" if name == "grid" else "disk.ply")))
+    ms.load_new_mesh(str(meshes / f"{name}.ply"))
     ms.current_mesh().add_vertex_custom_scalar_attribute(ms.current_mesh().vertex_matrix()[:, 2], "height")
     ms.compute_texcoord_transfer_vertex_to_wedge()
     return ms
@@ -141,7 +141,8 @@ def declared(row, key):
 def test_reports_hold_what_the_table_says(row, meshes):
     seen = set()
     for more in [{}, *MORE.get(row["python_name"], [])]:
-        ms = terrain(meshes, wants_another_layer(row["python_name"]))
+        name = "grid" if wants_grid(row["python_name"]) else "terrain"
+        ms = terrain(meshes, wants_another_layer(row["python_name"]), name)
         report = ms.apply_filter(row["python_name"], **more)
         for key, value in report.items():
             entry = declared(row, key)

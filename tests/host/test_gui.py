@@ -5,16 +5,17 @@ import pathlib
 import numpy as np
 import pymeshlab
 import pytest
-from conftest import FILTER_IDS, FILTERS
+from conftest import FILTER_IDS, FILTERS, wants_grid
 from meshlab_program import LATER_GUI, display, gui, run, tree  # noqa: F401  fixtures
 from PIL import Image
 
 NAMES = {f["python_name"]: f["name"] for f in FILTERS}
 NEED_MORE = ["apply_coord_multires_transfer_edit", "apply_coord_multires_displace"]  # a second layer; a selection
-MOVING = [name for name in FILTER_IDS if name.startswith("apply_coord") and name not in NEED_MORE]
+GRID = [name for name in FILTER_IDS if name.startswith("apply_coord") and wants_grid(name)]  # another mesh
+MOVING = [name for name in FILTER_IDS if name.startswith("apply_coord") and name not in [*NEED_MORE, *GRID]]
 # What MeshLab puts back when a preview ends: positions, colours and quality; not layers, texture coordinates, custom data.
 QUALITY = [name for name in FILTER_IDS if name.startswith("compute_scalar")]
-PREVIEWED = [*MOVING, *NEED_MORE, *QUALITY, "apply_attributes_multires_band"]
+PREVIEWED = [*MOVING, *NEED_MORE, *GRID, *QUALITY, "apply_attributes_multires_band"]
 
 # What brings the mesh back. From 2022.02 on, closing the dialog leaves what is previewed.
 CANCEL = [("press", "Preview"), ("press", "Close")] if LATER_GUI else [("press", "Close")]

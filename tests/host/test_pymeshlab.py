@@ -7,7 +7,7 @@ import textwrap
 import numpy as np
 import pymeshlab
 import pytest
-from conftest import FILTER_IDS, FILTERS, PLUGINS, PROBES
+from conftest import FILTER_IDS, FILTERS, PLUGINS, PROBES, wants_grid
 
 PROBE_FILES = [PROBES / "libfilter_multires_probe.so", PROBES / "libfilter_multires_twin.so"]
 for plugin in PROBE_FILES + PLUGINS:
@@ -41,8 +41,28 @@ def rich_sphere():
     ms.create_cube()
     ms.create_sphere(subdiv=2)
     v, f = ms.current_mesh().vertex_matrix(), ms.current_mesh().face_matrix()
-    n, m = len(v), len(f)
     ms.delete_current_mesh()
+    return add_rich(ms, v, f)
+
+
+def rich_grid():
+    """The same with a triangular grid, and a copy of it in the first layer."""
+    ms = new_document()
+    i, j = np.mgrid[-8:9, -9:10]
+    v = np.column_stack([i.ravel(), j.ravel(), np.sin(0.9 * i.ravel()) + np.cos(0.7 * i.ravel() + j.ravel())]) / 9
+    corner = (np.arange(16)[:, None] * 19 + np.arange(18)).ravel()
+    f = np.vstack([corner[:, None] + [0, 19, 20], corner[:, None] + [0, 20, 1]])
+    ms.add_mesh(pymeshlab.Mesh(v + [0, 0, 0.1], f))
+    return add_rich(ms, v, f)
+
+
+def rich(row):
+    """One that the filter takes."""
+    return rich_grid() if wants_grid(row["python_name"]) else rich_sphere()
+
+
+def add_rich(ms, v, f):
+    n, m = len(v), len(f)
     ms.add_mesh(
         pymeshlab.Mesh(
             vertex_matrix=v,
@@ -359,7 +379,7 @@ def test_there_are_filters():
 
 @every_filter
 def test_filter_works_without_parameters(row):
-    ms = rich_sphere()
+    ms = rich(row)
     before = snapshot(ms)
     out = ms.apply_filter(row["python_name"])
     assert out and all(finite(value) for value in out.values())
@@ -375,7 +395,7 @@ def test_filter_works_without_parameters(row):
 def test_filter_gives_the_same_twice(row):
     results = []
     for _ in range(2):
-        ms = rich_sphere()
+        ms = rich(row)
         ms.apply_filter(row["python_name"])
         results.append(snapshot(ms))
     assert differences(*results) == []
@@ -383,7 +403,7 @@ def test_filter_gives_the_same_twice(row):
 
 @every_filter
 def test_filter_refuses_values_out_of_range(row):
-    ms = rich_sphere()
+    ms = rich(row)
     before = snapshot(ms)
     for parameter in row["parameters"]:
         outside = [np.nan] if parameter["type"] == "real" else []
@@ -418,7 +438,7 @@ def test_filter_handles_every_class_of_mesh(row, meshes):
 @every_filter
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -np.inf])
 def test_filter_refuses_coordinates_that_are_not_finite(row, bad):
-    ms = rich_sphere()
+    ms = rich(row)
     mesh = ms.current_mesh()
     vertices = mesh.vertex_matrix()
     vertices[7, 1] = bad

@@ -12,7 +12,7 @@ import zipfile
 import numpy as np
 import pymeshlab
 import pytest
-from conftest import BUILD, FILTER_IDS, FILTERS, citations, wants_another_layer
+from conftest import BUILD, FILTER_IDS, FILTERS, citations, wants_another_layer, wants_grid
 
 ROOT = BUILD.parents[1]
 sys.path.insert(0, str(ROOT / "tools"))
@@ -43,7 +43,7 @@ def multires(wheel, tmp_path_factory):
 def document(meshes, name="terrain", another_layer=False):
     ms = pymeshlab.MeshSet(verbose=False)
     if another_layer:
-        ms.load_new_mesh(str(meshes / "disk.ply"))
+        ms.load_new_mesh(str(meshes / ("grid.ply" if name == "grid" else "disk.ply")))
     ms.load_new_mesh(str(meshes / f"{name}.ply"))
     ms.current_mesh().add_vertex_custom_scalar_attribute(ms.current_mesh().vertex_matrix()[:, 2], "height")
     return ms
@@ -52,7 +52,8 @@ def document(meshes, name="terrain", another_layer=False):
 @pytest.mark.parametrize("row", FILTERS, ids=FILTER_IDS)
 def test_a_function_does_what_its_filter_does_by_default(multires, meshes, row):
     function = getattr(multires, generate.function_name(row))
-    ms, other = (document(meshes, another_layer=wants_another_layer(row["python_name"])) for _ in range(2))
+    name = "grid" if wants_grid(row["python_name"]) else "terrain"
+    ms, other = (document(meshes, name, wants_another_layer(row["python_name"])) for _ in range(2))
     report, raw = function(ms), other.apply_filter(row["python_name"])
     np.testing.assert_array_equal(ms.current_mesh().vertex_matrix(), other.current_mesh().vertex_matrix())
     np.testing.assert_array_equal(ms.current_mesh().vertex_color_matrix(), other.current_mesh().vertex_color_matrix())

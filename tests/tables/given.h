@@ -50,6 +50,9 @@ inline Layer another_layer(const Layer& layer) {
     return other;
 }
 
+/// Filters that refuse all meshes but triangular grids.
+inline bool wants_grid(const Filter& filter) { return filter.python_name.find("multires_grid") != std::string::npos; }
+
 /// Runs a filter on a layer, and on another_layer if it wants one.
 inline Result run(const Filter& filter, const Layer& layer, Session& session, const Given& given = {}) {
     const Call call = filter.call(&layer);

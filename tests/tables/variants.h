@@ -21,6 +21,7 @@ inline std::vector<Variant> variants(const Filter& filter, const Layer& layer) {
     for (const Declared& d : all) {
         if (d.name == "base_vertices") base[d.name] = 8;
         if (d.name == "level") base[d.name] = 1;
+        if (d.name == "oracle") base[d.name] = 0;  // the quick one
     }
     std::vector<Variant> out{{"defaults", base}};
     for (const Declared& d : all) {

@@ -6,18 +6,20 @@ from typing import Literal, TypeAlias
 from ._call import Array, MeshSet, Vector, also_flat, apply
 
 __all__ = [
-    "AdaptiveReconstructionReport", "AttributeChanges", "BuildPyramidReport", "DenoiseAttributesReport",
-    "DenoiseReport", "DetailFromLayerReport", "DetailToQualityReport", "DetailsByScaleReport",
-    "DifferenceToLayerReport", "EnhanceReport", "EqualizerReport", "FalloffToQualityReport", "Features",
-    "FilterAttributesReport", "FilterCustomAttributesReport", "GenerateTexcoordReport", "Grouping", "LIMITS",
-    "LevelAsLayerReport", "LowPassReport", "Mode", "MoveRegionReport", "Movement", "MultibandEditReport", "Operator",
-    "Order", "Pyramid", "PyramidUse", "RelativeTo", "RelaxAttributesReport", "ReliefReport", "Result",
-    "RoughnessReport", "Scheme", "SelectFeaturesReport", "SmoothBaseAsLayerReport", "Split", "StopBandReport",
-    "Storage", "TransferEditReport", "UnsharpReport", "Update", "adaptive_reconstruction", "build_pyramid", "denoise",
-    "denoise_attributes", "detail_from_layer", "detail_to_quality", "details_by_scale", "difference_to_layer",
-    "enhance", "equalizer", "falloff_to_quality", "filter_attributes", "filter_custom_attributes", "generate_texcoord",
-    "level_as_layer", "low_pass", "move_region", "multiband_edit", "relax_attributes", "relief", "roughness",
-    "select_features", "smooth_base_as_layer", "stop_band", "transfer_edit", "unsharp",
+    "AdaptiveReconstructionReport", "AttributeChanges", "Basis", "BuildPyramidReport", "Channels",
+    "DenoiseAttributesReport", "DenoiseReport", "DetailFromLayerReport", "DetailToQualityReport",
+    "DetailsByScaleReport", "DifferenceToLayerReport", "EnhanceReport", "EqualizerReport", "FalloffToQualityReport",
+    "Features", "FilterAttributesReport", "FilterCustomAttributesReport", "GenerateTexcoordReport", "GridBandReport",
+    "GridCompressReport", "GridEditReport", "GridLevelReport", "GridReport", "Grouping", "LIMITS", "LevelAsLayerReport",
+    "LowPassReport", "Mode", "MoveRegionReport", "Movement", "MultibandEditReport", "Operator", "Order", "Pyramid",
+    "PyramidUse", "RelativeTo", "RelaxAttributesReport", "ReliefReport", "Result", "RoughnessReport", "Scheme",
+    "SelectFeaturesReport", "SmoothBaseAsLayerReport", "Split", "StopBandReport", "Storage", "TransferEditReport",
+    "UnsharpReport", "Update", "adaptive_reconstruction", "build_pyramid", "denoise", "denoise_attributes",
+    "detail_from_layer", "detail_to_quality", "details_by_scale", "difference_to_layer", "enhance", "equalizer",
+    "falloff_to_quality", "filter_attributes", "filter_custom_attributes", "generate_texcoord", "grid", "grid_band",
+    "grid_compress", "grid_edit", "grid_level", "level_as_layer", "low_pass", "move_region", "multiband_edit",
+    "relax_attributes", "relief", "roughness", "select_features", "smooth_base_as_layer", "stop_band", "transfer_edit",
+    "unsharp",
 ]
 
 Scheme: TypeAlias = Literal["Roy", "Guskov", "Lazy", "Szczesna"]
@@ -33,6 +35,8 @@ Features: TypeAlias = Literal["none", "by angle", "edges not faux", "selected ed
 Order: TypeAlias = Literal["1", "2", "4", "gaussian"]
 RelativeTo: TypeAlias = Literal["current shape", "original"]
 Mode: TypeAlias = Literal["low pass", "stop band", "enhance"]
+Channels: TypeAlias = Literal["positions", "heights"]
+Basis: TypeAlias = Literal["linear", "quartic"]
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -687,6 +691,78 @@ class AdaptiveReconstructionReport(Result):
     """The same, relative (percent of the box diagonal)."""
     largest_distance_percent: float | None = None
     """The same, relative (percent of the box diagonal)."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class GridReport:
+    """What grid() returns."""
+
+    grids: int
+    """Grids that the layer consists of."""
+    rows: Array
+    """Rows of each grid's box on the lattice, largest grid first."""
+    columns: Array
+    """Columns of each."""
+    vertices: Array
+    """Vertices of each."""
+    holes: Array
+    """Holes of each: groups of faces missing inside."""
+    loose_vertices: int
+    """Vertices of faces that belong to no grid; no filter moves them."""
+    off_lattice_faces: int
+    """Faces that do not join three neighbours, as at corners of holes."""
+    levels: int
+    """Levels of the largest grid."""
+    wavelength: Array
+    """The finest wave of each level (mesh units)."""
+    energy: Array
+    """Energy of the details: seven types of wavelets of level 0, then those of level 1,  (square mesh units)."""
+    reconstruction_error: float
+    """The most that a coordinate changes by analysis and synthesis (mesh units)."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class GridBandReport(Movement, Result):
+    """What grid_band() returns."""
+
+    grids: int
+    """Grids that the layer consists of."""
+    gains: Array
+    """The factor of each level's details, finest first."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class GridCompressReport(Movement, Result):
+    """What grid_compress() returns."""
+
+    kept_coefficients: int
+    """Coefficients that were kept."""
+    kept_share: float
+    """The same, of the vertices of grids (percent)."""
+    rms_error: float
+    """Root of the mean square distance of vertices from where they were (mesh units)."""
+    largest_error: float
+    """The largest distance (mesh units)."""
+    error_energy: float
+    """Energy of the error, of that of the samples (percent)."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class GridLevelReport(Result):
+    """What grid_level() returns."""
+
+    vertices: int
+    """Vertices of the new layer."""
+    faces: int
+    """Its faces."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class GridEditReport(Movement, Result):
+    """What grid_edit() returns."""
+
+    level: int
+    """The level that the edited layer is a control mesh of."""
 
 
 @also_flat(Pyramid)
@@ -1778,6 +1854,180 @@ def adaptive_reconstruction(
     return apply(AdaptiveReconstructionReport, "generate_multires_adaptive_reconstruction", **locals())
 
 
+def grid(
+    ms: MeshSet, *, channels: Channels = "positions", basis: Basis = "quartic", levels: int = 0,
+) -> GridReport:
+    """Finds out whether the layer is a triangular grid (all inner vertices with six neighbours: a terrain, a range
+    map), how large it is, and how much energy the seven types of box-spline wavelets have at each level.
+
+    The filter compute_multires_grid, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        channels: Positions: all three coordinates. Heights: only along the direction in which the surface leaves its
+            plane most, z of a terrain.
+        basis: Scaling functions and wavelets. Linear: continuous, of two triangles' reach. Quartic: curvature is
+            continuous, too.
+        levels: How many, at most; fewer on small grids. 0: down to about 4 by 4 points. A whole number, 0 to 16.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Dreger, Gross, Schlegel, "Construction of Multiresolution Triangular B-Spline Surfaces using Hexagonal Filters",
+            ETH Zürich 1999.
+    """
+    return apply(GridReport, "compute_multires_grid", **locals())
+
+
+def grid_band(
+    ms: MeshSet, *, gain: float = 0.0,
+    unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength", finest: float | None = None,
+    coarsest: float | None = None, softness: float = 0.0, gains: str = "", channels: Channels = "positions",
+    basis: Basis = "quartic", levels: int = 0, selected: bool | None = None, quality_mask: bool = False,
+    relative_to: RelativeTo = "current shape",
+) -> GridBandReport:
+    """Weakens, removes or strengthens detail of some sizes on a triangular grid, by box-spline wavelets that prefer
+    none of its directions.
+
+    The filter apply_coord_multires_grid_band, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        gain: Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them. A number, 0 to 10.
+        unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
+            can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. Scripts may
+            leave limits out: they are then derived from the mesh, in this unit. In a dialog the numbers shown count.
+        finest: Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. A number, at least
+            0. None: derived from the mesh.
+        coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
+            least 0. None: derived from the mesh.
+        softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
+            10.
+        gains: If not empty, in place of gain and limits: a factor for each level, finest first, separated by commas.
+            Levels left out keep 1.
+        channels: Positions: all three coordinates. Heights: only along the direction in which the surface leaves its
+            plane most, z of a terrain.
+        basis: Scaling functions and wavelets. Linear: continuous, of two triangles' reach. Quartic: curvature is
+            continuous, too.
+        levels: How many, at most; fewer on small grids. 0: down to about 4 by 4 points. A whole number, 0 to 16.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        relative_to: Current shape: the filter changes the mesh as it is now. Original: it starts again from the shape
+            the mesh had before any Multiresolution filter moved it, so that changes do not add up, and values that
+            change nothing (gains of 1) bring exactly that shape back. Outside the selection the mesh stays as it is.
+            The original is kept with the layer until something else changes the mesh; files do not hold it.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Dreger, Gross, Schlegel, "Construction of Multiresolution Triangular B-Spline Surfaces using Hexagonal Filters",
+            ETH Zürich 1999.
+    """
+    return apply(GridBandReport, "apply_coord_multires_grid_band", **locals())
+
+
+def grid_compress(
+    ms: MeshSet, *, keep_by: Literal["share", "error"] = "share", share: float = 10.0, error: float | None = None,
+    oracle: Literal["magnitude", "pursuit"] = "pursuit", channels: Channels = "positions", basis: Basis = "quartic",
+    levels: int = 0, selected: bool | None = None, quality_mask: bool = False,
+) -> GridCompressReport:
+    """Replaces a triangular grid by what a few of its box-spline wavelets give: a share of them, or as few as an error
+    bound allows.
+
+    The filter apply_coord_multires_grid_compress, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        keep_by: What says how many coefficients are kept.
+        share: Coefficients kept, in percent of the number of vertices. A number, 0 to 100.
+        error: How far vertices may be off, at most, mesh units; as few as do it are kept. A number, at least 0. None:
+            derived from the mesh.
+        oracle: How they are chosen. Magnitude: the largest, at once. Pursuit: those that explain most of what is left,
+            with the best values for all of them; some 100 times slower, half the error.
+        channels: Positions: all three coordinates. Heights: only along the direction in which the surface leaves its
+            plane most, z of a terrain.
+        basis: Scaling functions and wavelets. Linear: continuous, of two triangles' reach. Quartic: curvature is
+            continuous, too.
+        levels: How many, at most; fewer on small grids. 0: down to about 4 by 4 points. A whole number, 0 to 16.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Dreger, Gross, Schlegel, "Construction of Multiresolution Triangular B-Spline Surfaces using Hexagonal Filters",
+            ETH Zürich 1999.
+    """
+    return apply(GridCompressReport, "apply_coord_multires_grid_compress", **locals())
+
+
+def grid_level(
+    ms: MeshSet, *, level: int = 1, refine: int = 0, basis: Basis = "quartic", levels: int = 0,
+) -> GridLevelReport:
+    """Makes a new layer of the control points of a level of a triangular grid, or of the smooth surface that they give,
+    at a level as fine as wanted.
+
+    The filter generate_multires_grid_level, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        level: Of the control points: 0 is the grid, each level halves the number of points along each direction. A
+            whole number, at least 0.
+        refine: Steps of subdivision: 0 is the control mesh itself; as many as the level give the smooth surface with
+            the grid's own vertices; up to three more are finer than the grid. A whole number, at least 0.
+        basis: Scaling functions and wavelets. Linear: continuous, of two triangles' reach. Quartic: curvature is
+            continuous, too.
+        levels: How many, at most; fewer on small grids. 0: down to about 4 by 4 points. A whole number, 0 to 16.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Dreger, Gross, Schlegel, "Construction of Multiresolution Triangular B-Spline Surfaces using Hexagonal Filters",
+            ETH Zürich 1999.
+    """
+    return apply(GridLevelReport, "generate_multires_grid_level", **locals())
+
+
+def grid_edit(
+    ms: MeshSet, *, edited: int | None = None, basis: Basis = "quartic", levels: int = 0, selected: bool | None = None,
+    quality_mask: bool = False,
+) -> GridEditReport:
+    """Lets a triangular grid follow its edited control mesh: make one with Grid Level as Layer, move its vertices, and
+    the surface moves with them and keeps its detail.
+
+    The filter apply_coord_multires_grid_edit, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        edited: A layer made by Grid Level as Layer from the current one, without refinement, whose vertices were moved.
+            None: the first other layer.
+        basis: Scaling functions and wavelets. Linear: continuous, of two triangles' reach. Quartic: curvature is
+            continuous, too.
+        levels: How many, at most; fewer on small grids. 0: down to about 4 by 4 points. A whole number, 0 to 16.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Dreger, Gross, Schlegel, "Construction of Multiresolution Triangular B-Spline Surfaces using Hexagonal Filters",
+            ETH Zürich 1999.
+    """
+    return apply(GridEditReport, "apply_coord_multires_grid_edit", **locals())
+
+
 LIMITS: dict[str, dict[str, tuple[float, float]]] = {
     "Pyramid": {
         "presmooth": (0, 1), "sets_per_level": (1, 100), "level_ratio": (0, 0.99), "length_weight": (0, 1000),
@@ -1838,6 +2088,21 @@ LIMITS: dict[str, dict[str, tuple[float, float]]] = {
     },
     "adaptive_reconstruction": {
         "band_gain": (-1000, 1000), "normal_limit": (1, 180), "feature_angle": (0.01, 179.99),
+    },
+    "grid": {
+        "levels": (0, 16),
+    },
+    "grid_band": {
+        "gain": (0, 10), "softness": (0, 10), "levels": (0, 16),
+    },
+    "grid_compress": {
+        "share": (0, 100), "levels": (0, 16),
+    },
+    "grid_level": {
+        "levels": (0, 16),
+    },
+    "grid_edit": {
+        "levels": (0, 16),
     },
 }
 """Least and most of the numbers that have both, by function (or class) and parameter."""

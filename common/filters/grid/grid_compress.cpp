@@ -1,0 +1,77 @@
+#include "filters/grid/grid_compress.h"
+
+#include "mesh/validation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+void check(const GridCompressOptions& options) {
+    require(options.share > 0 && options.share <= 100, "share must be a percentage, more than 0 and at most 100");
+    require(options.error > 0 && std::isfinite(options.error), "error must be a number, more than 0");
+}
+
+/// Sums over the vertices of all grids.
+struct Errors {
+    double squares = 0, energy = 0, largest = 0, vertices = 0, kept = 0;
+
+    void add(const std::vector<Raster>& error, const std::vector<Raster>& samples) {
+        for (std::size_t p = 0; p < error[0].values.size(); ++p) {
+            double square = 0;
+            for (std::size_t c = 0; c < error.size(); ++c) {
+                square += error[c].values[p] * error[c].values[p];
+                energy += samples[c].values[p] * samples[c].values[p];
+            }
+            squares += square;
+            largest = std::max(largest, std::sqrt(square));
+        }
+    }
+};
+
+}  // namespace
+
+Result grid_compress(const Layer& layer, const GridCompressOptions& options, Session& session) {
+    require_usable(layer.mesh);  // before a default that could not be derived from the mesh is blamed
+    check(options);
+    Result result;
+    const std::vector<double> weights = region_weights(layer, options.region);
+    session.progress.report(0, "Finding the grid");
+    const FoundGrids found = grids_of(layer, options.grid);
+    Positions after = layer.mesh.positions;
+    Errors errors;
+    double done = 0;
+    for (const Grid& grid : found.grids) {
+        const double all = static_cast<double>(layer.mesh.positions.size());
+        const Progress part = session.progress.part(0.9 * done / all, 0.9 * (done + grid.vertices) / all);
+        done += grid.vertices;
+        const GridPyramid pyramid = pyramid_of(grid, options.grid);
+        const GridSignal signal(grid, layer.mesh.positions, options.grid.channels);
+        SparseOptions how;
+        how.oracle = options.oracle;
+        how.keep = static_cast<std::size_t>(options.share / 100 * grid.vertices);
+        if (options.keep_by == KeepBy::error) how.error = options.error;
+        const Sparse kept = sparse(pyramid, signal.channels(), how, part);
+        std::vector<Raster> change = kept.samples;
+        for (std::size_t c = 0; c < change.size(); ++c)
+            for (std::size_t p = 0; p < change[c].values.size(); ++p)
+                change[c].values[p] -= signal.channels()[c].values[p];
+        errors.add(change, signal.channels());
+        errors.vertices += grid.vertices, errors.kept += static_cast<double>(kept.kept);
+        signal.add(change, after);
+    }
+    session.progress.report(0.95, "Measuring the change");
+    blend(layer.mesh.positions, weights, after);
+    Report& report = result.report;
+    report.add("kept_coefficients", static_cast<int>(errors.kept));
+    report.add("kept_share", 100 * errors.kept / errors.vertices, "percent");
+    report.add("rms_error", std::sqrt(errors.squares / errors.vertices), "mesh units");
+    report.add("largest_error", errors.largest, "mesh units");
+    report.add("error_energy", errors.energy > 0 ? 100 * errors.squares / errors.energy : 0, "percent");
+    report_change(layer, after, report);
+    result.positions = std::move(after);
+    return result;
+}
+
+}  // namespace multires
