@@ -321,6 +321,83 @@ def top(v, f):
     return panels
 
 
+def cow(curl=0.005):
+    """The cow that comes with pymeshlab, in finer triangles, with a coat in two colours and curls: vertices, faces, colours.
+    It looks along z, up is y."""
+    ms = document(*read(BUNNY.parent / "cow.obj"))
+    ms.meshing_merge_close_vertices()
+    ms.meshing_surface_subdivision_loop(iterations=2, threshold=pymeshlab.PercentageValue(0))
+    v, f = arrays(ms.current_mesh())
+    normal = ms.current_mesh().vertex_normal_matrix()
+    curls = np.sin(90 * v[:, 0] + 2 * np.sin(25 * v[:, 1])) * np.sin(80 * v[:, 1]) * np.sin(80 * v[:, 2])
+    patch = np.sin(11 * v[:, 0] + 1) + np.sin(13 * v[:, 1]) + np.sin(12 * v[:, 2] + 2 * np.sin(9 * v[:, 1])) > 0.5
+    colors = np.where(patch[:, None], [0.55, 0.3, 0.14, 1], [0.92, 0.86, 0.74, 1])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    return v + curl * curls[:, None] * normal, f, colors
+
+
+def rise(x, start, end):
+    t = np.clip((x - start) / (end - start), 0, 1)
+    return t * t * (3 - 2 * t)
+
+
+def giraffe_of(p):
+    """Longer legs, and a neck."""
+    q = p.copy()
+    neck = rise(p[:, 2], 0.25, 0.6) * rise(p[:, 1], -0.35, -0.05)
+    q[:, 1] += 0.55 * neck - 0.3 * rise(-p[:, 1], 0.1, 0.5)
+    q[:, 2] -= 0.12 * neck
+    return q
+
+
+def step_of(p):
+    """One of the forelegs forward and up."""
+    angle = -1.2 * rise(-p[:, 1], 0.08, 0.34) * (p[:, 0] > 0.02) * (p[:, 2] > 0.15)
+    pivot = np.array([0, -0.15, 0.42])
+    x, y, z = (p - pivot).T
+    return np.column_stack([x, y * np.cos(angle) - z * np.sin(angle), y * np.sin(angle) + z * np.cos(angle)]) + pivot
+
+
+def follow(v, f, colors, edit, **parameters):
+    """The cow, its proxy after the edit, and the cow that followed it: three pairs of vertices and faces."""
+    ms = document()
+    ms.add_mesh(pymeshlab.Mesh(vertex_matrix=v, face_matrix=f, v_color_matrix=colors))
+    ms.generate_copy_of_current_mesh()
+    ms.meshing_decimation_quadric_edge_collapse(targetfacenum=1000)
+    proxy, faces = arrays(ms.current_mesh())
+    ms.add_mesh(pymeshlab.Mesh(edit(proxy), faces))
+    ms.set_current_mesh(0)
+    ms.apply_filter("apply_coord_multires_transfer_edit", before=1, edited=2, **parameters)
+    return (v, f), (edit(proxy), faces), arrays(ms.current_mesh())
+
+
+def giraffe(path):
+    v, f, colors = cow()
+    before, proxy, after = follow(v, f, colors, giraffe_of)
+    coat = colors[:, :3]
+    panels = [
+        Panel("Cow", f"{len(v):,} vertices", *before, coat),
+        Panel("Proxy", f"{len(proxy[0])} vertices, edited", *proxy, edges=True),
+        Panel("Follow Edited Layer", "the cow with its coat", *after, coat),
+    ]
+    sheet_of_cows(panels, np.vstack([before[0], after[0]]), np.vstack([f, f + len(v)]), path)
+
+
+def cow_leg(path):
+    """Guskov et al., Figure 14."""
+    v, f, colors = cow(0.01)
+    panels = [Panel("Cow", "", v, f)]
+    for details in ("single resolution", "multiresolution"):
+        _, _, after = follow(v, f, colors, step_of, details=details, encoding="frames")
+        panels.append(Panel(details.capitalize(), "details of the leg that steps", *after))
+    sheet_of_cows(panels, v, f, path, (-0.5, -0.45, 0.42))
+
+
+def sheet_of_cows(panels, all_vertices, f, path, closer=(0, 0, 1)):
+    camera = rendering.three_quarter_camera(all_vertices, f, up="y").closer(*closer)
+    rendering.contact_sheet(panels, camera, 360, close_ups=False).save(path, "WEBP", quality=82, method=6)
+
+
 def heights(v, f, path):
     """How common each height of the bunny's fur is, and the bearing curve, by the Python package's plot."""
     import types
@@ -419,13 +496,16 @@ def grid_picture(name, path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--only", nargs="*", help="names of filters, or top")
+    parser.add_argument("--only", nargs="*", help="names of filters, top, giraffe or cow-leg")
     parser.add_argument("--output", type=pathlib.Path, default=FOLDER)
     arguments = parser.parse_args()
     load_plugins()
     v, f = read(BUNNY)
     arguments.output.mkdir(parents=True, exist_ok=True)
-    for name in arguments.only or ["top", *PAIRS]:
+    for name in arguments.only or ["top", "giraffe", "cow-leg", *PAIRS]:
+        if name in ("giraffe", "cow-leg"):
+            {"giraffe": giraffe, "cow-leg": cow_leg}[name](arguments.output / f"{name}.webp")
+            continue
         if name == "compute_multires_roughness":
             heights(v, f, arguments.output / "roughness.webp")
             continue
