@@ -34,9 +34,10 @@ public:
 
     /// Places on the lattice of the grid: (first + i, first + j) times the scale.
     ControlMesh done(double first, double scale) {
-        for (const std::size_t p : mesh.place)
-            mesh.at.emplace_back(scale * (first + static_cast<double>(p / columns_)),
-                                 scale * (first + static_cast<double>(p % columns_)), 0);
+        for (const std::size_t p : mesh.place) {
+            const std::size_t i = p / columns_, j = p % columns_;
+            mesh.at.emplace_back(scale * (first + static_cast<double>(i)), scale * (first + static_cast<double>(j)), 0);
+        }
         return std::move(mesh);
     }
 
