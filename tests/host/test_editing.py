@@ -62,6 +62,22 @@ def test_only_positions_change(parameters):
     assert np.sqrt((error**2).mean()) < 3e-4 * np.linalg.norm(np.ptp(expected, axis=0))
 
 
+def test_a_level_is_edited_with_filters_of_meshlab():
+    """The example of docs/editing.md."""
+    ms = scan_and_level()
+    before = ms.current_mesh().vertex_matrix()
+    ms.set_current_mesh(1)
+    ms.generate_copy_of_current_mesh()
+    ms.compute_coord_by_function(x="x", y="y", z="z + 0.02 * y^2")
+    ms.set_current_mesh(0)
+    report = ms.apply_filter(FOLLOW, edited=2, before=1, selected=False)
+    expected = before.copy()
+    expected[:, 2] += 0.02 * before[:, 1] ** 2
+    error = np.linalg.norm(ms.current_mesh().vertex_matrix() - expected, axis=1)
+    assert np.sqrt((error**2).mean()) < 0.01 * report["rms_displacement"]
+    assert report["folded_faces"] == 0
+
+
 def test_a_remeshed_copy_is_wrapped():
     ms = scan_and_level()
     v = ms.current_mesh().vertex_matrix()

@@ -14,7 +14,6 @@
 namespace multires {
 namespace {
 
-using fixtures::count;
 using fixtures::largest_distance;
 using fixtures::layer_of;
 using fixtures::series;

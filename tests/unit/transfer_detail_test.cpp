@@ -18,7 +18,6 @@ using fixtures::count;
 using fixtures::largest_distance;
 using fixtures::layer_of;
 using Similarity = fixtures::Motion;
-using fixtures::number;
 
 TransferDetailOptions from_layer() {
     TransferDetailOptions o;
