@@ -180,7 +180,7 @@ TEST(Multiband, OfFiveBandsKeepsAMushroomBesideADuneWhereTwoBandsTearIt) {
 }
 
 TEST(FollowEdit, WithPhongWithoutAChangeOfTheProxyGivesTheDetailItsGain) {
-    const Layer layer = layer_of(shapes::scan(4000, {0.2, 0.3, 5}));
+    const Layer layer = layer_of(shapes::scan(1500, {0.2, 0.3, 5}));
     Layer proxy = layer_of(shapes::irregular_sphere(300)), turned = proxy;
     const fixtures::Motion motion;
     turned.mesh = motion(turned.mesh);
