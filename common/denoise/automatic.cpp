@@ -15,11 +15,12 @@
 namespace multires {
 namespace {
 
-constexpr double rounding = 1e-4;      ///< edge lengths: less than this is no noise
-constexpr double least_step = 0.03;    ///< edge lengths: a lattice that is finer makes no noise to speak of
-constexpr int spike_steps = 3;         ///< of guided normals, for what impulses met: creases come back
-constexpr double mostly = 0.5;         ///< weight of the normal field that speaks for guided normals
-constexpr double sharply = 0.65;       ///< weight of what keeps creases from which on it is alone
+constexpr double rounding = 1e-4;    ///< edge lengths: less than this is no noise
+constexpr double least_step = 0.03;  ///< edge lengths: a lattice that is finer makes no noise to speak of
+constexpr double terraces = 0.7;  ///< rounding to steps as large as edges errs alike side by side: for it, as if more
+constexpr int spike_steps = 3;    ///< of guided normals, for what impulses met: creases come back
+constexpr double mostly = 0.5;    ///< weight of the normal field that speaks for guided normals
+constexpr double sharply = 0.65;  ///< weight of what keeps creases from which on it is alone
 constexpr double small_weight = 0.04;  ///< candidates with less than this are left out
 
 using Tick = std::function<void(double, const char*)>;
@@ -352,7 +353,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     const WithinSurface within = relax_within_surface(faces, start, near, noise, stats.edge);
     tick(0.25, "Choosing");
     const double in_edges = noise.along_normals / stats.edge;
-    assumed.factor = rounded ? 1 : allowance(in_edges, count);
+    assumed.factor = allowance(in_edges, count) * (rounded ? 1 + terraces * in_edges : 1);
     assumed.normal_steps = normal_steps(in_edges);
     for (double& d : assumed.deviation) d *= options.strength * assumed.factor;
     const Choice choice = choose_on_sample(faces, shifted(start, within, Shares()), at, near, assumed,
