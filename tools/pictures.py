@@ -15,7 +15,8 @@ import pymeshlab
 
 import rendering
 from filter_tables import FUNCTIONS
-from measuring import BUNNY, ROOT, arrays, document, load_plugins, read, with_noise
+from measuring import (BUNNY, DENOISE, ROOT, Setting, TAUBIN, arrays, document, load_plugins, normal_angles, read, run,
+                       with_noise)  # fmt: skip
 from rendering import Panel
 
 FOLDER = ROOT / "docs/pictures"
@@ -398,6 +399,19 @@ def sheet_of_cows(panels, all_vertices, f, path, closer=(0, 0, 1)):
     rendering.contact_sheet(panels, camera, 360, close_ups=False).save(path, "WEBP", quality=82, method=6)
 
 
+def rounded(path):
+    """The bunny with coordinates rounded to 0.7 edge lengths, Taubin's filter tuned with the truth, and Denoise."""
+    truth, f = read(BUNNY)
+    noisy_v = with_noise(truth, f, "quantised", 0.2, 1)
+    angle = lambda v: normal_angles(v, f, truth, f).mean()  # noqa: E731
+    taubin = min((run(setting, noisy_v, f)[0] for setting in TAUBIN), key=angle)
+    ours = run(Setting(DENOISE), noisy_v, f)[0]
+    shown = (("Rounded", noisy_v), ("Taubin, tuned with the truth", taubin), ("Denoise, no parameter", ours))
+    panels = [Panel(title, f"normals off by {angle(v):.1f} degrees", v, f) for title, v in shown]
+    panels.append(Panel("Truth", "", truth, f))
+    rendering.contact_sheet(panels, rendering.three_quarter_camera(truth, f), 300).save(path, "WEBP", quality=80, method=6)
+
+
 def heights(v, f, path):
     """How common each height of the bunny's fur is, and the bearing curve, by the Python package's plot."""
     import types
@@ -494,17 +508,20 @@ def grid_picture(name, path):
     sheet.save(path, "WEBP", quality=80, method=6)
 
 
+ALONE = {"giraffe": giraffe, "cow-leg": cow_leg, "denoise-rounded": rounded}
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--only", nargs="*", help="names of filters, top, giraffe or cow-leg")
+    parser.add_argument("--only", nargs="*", help="names of filters, top, giraffe, cow-leg or denoise-rounded")
     parser.add_argument("--output", type=pathlib.Path, default=FOLDER)
     arguments = parser.parse_args()
     load_plugins()
     v, f = read(BUNNY)
     arguments.output.mkdir(parents=True, exist_ok=True)
-    for name in arguments.only or ["top", "giraffe", "cow-leg", *PAIRS]:
-        if name in ("giraffe", "cow-leg"):
-            {"giraffe": giraffe, "cow-leg": cow_leg}[name](arguments.output / f"{name}.webp")
+    for name in arguments.only or ["top", *ALONE, *PAIRS]:
+        if name in ALONE:
+            ALONE[name](arguments.output / f"{name}.webp")
             continue
         if name == "compute_multires_roughness":
             heights(v, f, arguments.output / "roughness.webp")
