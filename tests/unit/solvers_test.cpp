@@ -231,8 +231,10 @@ TEST(System, BendingIsTheSquareOfTheStiffness) {
         const double mean = masses(c).mean();
         if (n > 700 || !(masses(c).minCoeff() > 1e-5 * mean)) continue;
         const Stiffness square = bending(c);
-        const Eigen::MatrixXd full = dense(square),
-                              expected = mean * dense(c) * masses(c).cwiseInverse().asDiagonal() * dense(c);
+        Eigen::VectorXd inverse = masses(c).cwiseInverse();
+        for (std::size_t i = 0; i < n; ++i)
+            if (c.offset[i + 1] - c.offset[i] > 100) inverse[i] = 0;  // its Laplacian does not count
+        const Eigen::MatrixXd full = dense(square), expected = mean * dense(c) * inverse.asDiagonal() * dense(c);
         EXPECT_EQ(full, full.transpose()) << name;
         EXPECT_LT((full - expected).cwiseAbs().maxCoeff(), 1e-13 * expected.cwiseAbs().maxCoeff()) << name;
     }

@@ -24,15 +24,16 @@ void for_each_low_pass(const Spline& spline, const Mesh& mesh, const std::vector
                        const Progress& progress, const std::function<void(std::size_t, const Positions&)>& visit) {
     const Chain chain(cutoffs);
     const System& system = spline.solver();
-    Positions low = mesh.positions, massive(low.size());
+    Positions low = mesh.positions, next(low.size());
     SolveOptions options;
     options.tolerance = tolerance;
     options.together = true;  // so that a turned mesh gives the same, turned
     for (std::size_t b = 0; b < cutoffs.size(); ++b) {
         const double share = 1 / static_cast<double>(cutoffs.size()), begin = share * static_cast<double>(b);
         const double k = 2 * pi / chain.widths()[b];
-        if (!low.empty()) apply_mass(system.matrices(), low[0].data(), 3, massive[0].data());
-        system.solve(1, 1 / (k * k), massive, low, options, progress.part(begin, begin + share));
+        system.rational(terms(LowPassOrder::first), 1 / (k * k), low, next, options,
+                        progress.part(begin, begin + share));
+        low.swap(next);
         visit(b, low);
     }
 }
