@@ -5,7 +5,8 @@
 
 namespace multires {
 
-/// exp(-x) for 0 <= x <= 700 with a relative error below 1e-8, inline: weights of neighbours are asked for by the million.
+/// exp(-x) for 0 <= x <= 700 with a relative error below 1e-8, inline: weights of neighbours are asked for by the
+/// million.
 inline double falling_weight(double x) {
     constexpr double log2_e = 1.4426950408889634, ln_2 = 0.6931471805599453;
     const double halvings = static_cast<double>(static_cast<int>(x * log2_e + 0.5));

@@ -120,6 +120,7 @@ std::array<double, 2> changes(Mesh mesh) {
     return {std::sqrt(squares[0].value()), std::sqrt(squares[1].value())};
 }
 
+// A guard against a rim that gets worse, not a proof that none can be seen.
 TEST(GridBand, LeavesNoRim) {
     Mesh mesh = shapes::grid_terrain(with_hole());
     for (Vec3& p : mesh.positions) p.z() = 3 * std::sin(0.2 * p.x() + 0.1 * p.y()) + 0.01 * p.y() * p.y();
