@@ -121,7 +121,8 @@ void fill(MeshDocument& document, const Action& action, Content content) {
     Mesh edited = mesh;  // what filters of two layers take: Follow Edited Layer a copy of the layer itself
     if (grid) edited.faces.erase(edited.faces.begin() + 7), edited.positions.pop_back();  // as it is deleted below
     for (Vec3& p : edited.positions) p.x() += 0.01 * p.y() * p.y();
-    add(document, edited, "another");
+    MeshModel& another = add(document, edited, "another");
+    if (action.name == "transfer_coord_multires_detail") another.cm.Tr.SetTranslate(1, 2, 3.01);  // must be near
     MeshModel& model = add(document, mesh, "mesh");
     if (content != Content::bare) enrich(model);
     CMeshO& m = model.cm;

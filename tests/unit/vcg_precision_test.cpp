@@ -1,7 +1,6 @@
 // Meshes in single and in double precision through the same filters: what a host stores, and when it is rounded.
 #include "all_tables.h"
-#include "given.h"
-#include "shapes.h"
+#include "suited.h"
 #include "vcg/conversion.h"
 
 #include <gtest/gtest.h>
@@ -26,8 +25,7 @@ struct Types {
 
 /// A mesh whose coordinates are floats, in either precision.
 template <class S>
-void fill(typename Types<S>::VcgMesh& m) {
-    const Mesh mesh = shapes::scan(500, {});
+void fill(typename Types<S>::VcgMesh& m, const Mesh& mesh) {
     using Allocator = vcg::tri::Allocator<typename Types<S>::VcgMesh>;
     Allocator::AddVertices(m, mesh.positions.size());
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
@@ -55,8 +53,9 @@ TEST(Precision, ASinglePrecisionMeshGetsTheDoubleResultRoundedOnce) {
             SCOPED_TRACE(filter.python_name);
             Types<float>::VcgMesh single;
             Types<double>::VcgMesh twofold;
-            fill<float>(single);
-            fill<double>(twofold);
+            const Mesh mesh = suited(filter, shapes::scan(500, {}));
+            fill<float>(single, mesh);
+            fill<double>(twofold, mesh);
             apply(filter, single);
             apply(filter, twofold);
             for (std::size_t i = 0; i < single.vert.size(); ++i)
