@@ -144,13 +144,12 @@ void bind_bands(Parameters& p, BandsOptions& o) {
         .in("Bands");
     p.add("levels", Choice(o.levels, {"ratio", "edge length", "equal detail"}), "Levels",
           "How the bases follow each other. Ratio: by a constant ratio of the vertices they keep. Edge length: by one "
-          "of "
-          "the mean edge lengths of these. Equal detail: so that all bands have about the same detail.")
+          "of the mean edge lengths of these. Equal detail: so that all bands have about the same detail.")
         .in("Bands");
     p.add("vertices", &o.vertices, "Vertices of the base",
           "How many vertices the coarsest base keeps. Fewer leave more to the bands.")
         .at_least(1)
-        .in("Bands")
+        .advanced("Bands")
         .derived();
     bind_region(p, o.region);
     bind_relative_to(p, o.relative_to);

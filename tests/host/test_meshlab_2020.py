@@ -204,6 +204,9 @@ def test_hosts_of_single_and_double_precision_agree(server, double_host, meshes,
     assert colors <= 1.01  # of 255: a value near the middle between two is rounded up or down
 
 
+REPORTS = {"roughness": "sq: ", "details-by-scale": "rms_details: "}  # leave positions and colours as they are
+
+
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda p: p.stem)
 def test_example_runs(server, meshes, tmp_path, path):
     ms = pymeshlab.MeshSet()
@@ -216,4 +219,4 @@ def test_example_runs(server, meshes, tmp_path, path):
     assert np.isfinite(new.vertex_matrix()).all()
     changed = (new.vertex_number() != old.vertex_number() or np.ptp(new.vertex_matrix() - old.vertex_matrix()) > 1e-4
                or np.ptp(new.vertex_color_matrix() - old.vertex_color_matrix()) > 0)  # fmt: skip
-    assert changed, log
+    assert changed or REPORTS.get(path.stem, "changes nothing") in log, log
