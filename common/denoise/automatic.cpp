@@ -333,7 +333,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
         if (rounded) stats.step = *step;
     }
     tick(0.05, "Looking for impulsive noise");
-    const Positions start = rounded ? positions : without_impulses(faces, positions, at, near, stats.spikes);
+    Positions start = rounded ? positions : without_impulses(faces, positions, at, near, stats.spikes);
     tick(0.1, "Measuring the noise");
     SurfaceNoise noise = rounded ? *rounded : surface_noise(faces, start, at, near, stats.edge);
     if (options.deviation) {

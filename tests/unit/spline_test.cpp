@@ -129,7 +129,8 @@ TEST(Spline, SpreadMassesSumToTheArea) {
 }
 
 TEST(Spline, TransmissionOfPlaneWavesIsTheFormulaAwayFromTheRim) {
-    for (const auto& [name, mesh] : planes()) {
+    for (const auto& [name, plane] : planes()) {
+        const Mesh& mesh = plane;  // lambdas cannot capture structured bindings
         const Spline spline(mesh, {}, {});
         const Box box = bounding_box(mesh.positions);
         for (const double edges : {4.0, 6.0, 10.0, 20.0})
