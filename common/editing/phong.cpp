@@ -1,9 +1,9 @@
 #include "editing/phong.h"
 
-#include "base/buckets.h"
 #include "base/parallel.h"
 #include "editing/proxy.h"
 #include "measure/vertex_normals.h"
+#include "mesh/incidence.h"
 
 #include <Eigen/Dense>
 
@@ -17,10 +17,7 @@ namespace {
 
 /// The face across each side of each face; -1 if there is none, or more than one.
 Array<Face> faces_across(const Faces& faces, std::size_t vertices) {
-    const Buckets<Index> at(static_cast<Index>(vertices), [&](const auto& put) {
-        for (std::size_t f = 0; f < faces.size(); ++f)
-            for (const Index v : faces[f]) put(v, static_cast<Index>(f));
-    });
+    const Incidence at = vertex_faces(faces, static_cast<Index>(vertices));
     Array<Face> across(faces.size());
     const auto holds = [&](Index face, Index v) {
         const Face& f = faces[face];

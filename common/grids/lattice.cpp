@@ -1,5 +1,6 @@
 #include "grids/lattice.h"
 
+#include "base/buckets.h"
 #include "base/disjoint_sets.h"
 #include "base/error.h"
 
@@ -31,17 +32,13 @@ struct Umbrella {
 class Walk {
 public:
     Walk(const Faces& faces, Index vertices)
-        : faces_(faces), first_(static_cast<std::size_t>(vertices) + 1, 0), at_(vertices), part_(vertices, -1),
-          regular_(vertices, 0), state_(faces.size(), State::unseen) {
-        for (const Face& f : faces)
-            if (!repeats_an_index(f))
-                for (const Index v : f) ++first_[v + 1];
-        for (Index v = 0; v < vertices; ++v) first_[v + 1] += first_[v];
-        around_.resize(first_.back());
-        Array<Index> next(first_.begin(), first_.end() - 1);
-        for (std::size_t f = 0; f < faces.size(); ++f)
-            if (!repeats_an_index(faces[f]))
-                for (const Index v : faces[f]) around_[next[v]++] = static_cast<Index>(f);
+        : faces_(faces), around_(vertices,
+                                 [&](const auto& put) {
+                                     for (std::size_t f = 0; f < faces.size(); ++f)
+                                         if (!repeats_an_index(faces[f]))
+                                             for (const Index v : faces[f]) put(v, static_cast<Index>(f));
+                                 }),
+          at_(vertices), part_(vertices, -1), regular_(vertices, 0), state_(faces.size(), State::unseen) {
         look_at_vertices();
     }
 
@@ -63,8 +60,9 @@ private:
     Umbrella umbrella(Index v, Array<Index>& neighbour) const {
         Umbrella u;
         neighbour.clear();
-        for (Index k = first_[v]; k < first_[v + 1]; ++k, ++u.faces)
-            for (const Index w : faces_[around_[k]])
+        u.faces = around_[v].size();
+        for (const Index f : around_[v])
+            for (const Index w : faces_[f])
                 if (w != v) neighbour.push_back(w);
         std::sort(neighbour.begin(), neighbour.end());
         std::size_t distinct = 0;
@@ -84,7 +82,7 @@ private:
         bool manifold = true;
         Array<Index> neighbour;
         for (Index v = 0; v < static_cast<Index>(part_.size()); ++v) {
-            if (first_[v] == first_[v + 1]) continue;
+            if (around_[v].size() == 0) continue;
             const Umbrella u = umbrella(v, neighbour);
             manifold = manifold && u.manifold;
             if (!u.closed) continue;
@@ -141,8 +139,7 @@ private:
     /// The face across the edge (k, k+1), -1 if there is none.
     Index across(Index face, int k) const {
         const Index a = faces_[face][k], b = faces_[face][(k + 1) % 3];
-        for (Index n = first_[a]; n < first_[a + 1]; ++n) {
-            const Index other = around_[n];
+        for (const Index other : around_[a]) {
             const Face& f = faces_[other];
             if (other != face && (f[0] == b || f[1] == b || f[2] == b)) return other;
         }
@@ -170,7 +167,7 @@ private:
         std::vector<std::vector<Index>> members(parts_);
         for (std::size_t v = 0; v < part_.size(); ++v) {
             if (part_[v] >= 0) members[part_[v]].push_back(static_cast<Index>(v));
-            found.loose_vertices += part_[v] < 0 && first_[v] < first_[v + 1];
+            found.loose_vertices += part_[v] < 0 && around_[static_cast<Index>(v)].size() > 0;
         }
         std::size_t faces = 0;
         for (const State s : state_) found.off_lattice_faces += s == State::off;
@@ -234,7 +231,7 @@ private:
     }
 
     const Faces& faces_;
-    Array<Index> first_, around_;  // the faces around each vertex
+    Buckets<Index> around_;        // the faces of each vertex
     std::vector<Point> at_;        // #V
     Array<Index> part_;            // #V: the walk that placed it, -1 for none
     Array<std::uint8_t> regular_;  // #V: closed, with six neighbours

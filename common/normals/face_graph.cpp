@@ -6,13 +6,6 @@
 
 namespace multires {
 
-Incidence vertex_faces(const Faces& faces, Index vertices) {
-    return {vertices, [&](const auto& put) {
-                for (std::size_t f = 0; f < faces.size(); ++f)
-                    for (const Index v : faces[f]) put(v, static_cast<Index>(f));
-            }};
-}
-
 FaceGraph face_graph(const Faces& faces, const Incidence& at) {
     const Index count = static_cast<Index>(faces.size());
     constexpr Index chunk = 1024;

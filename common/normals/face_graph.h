@@ -1,18 +1,11 @@
 #pragma once
 
-#include "base/buckets.h"
-#include "mesh/mesh.h"
+#include "mesh/incidence.h"
 
 #include <array>
 #include <vector>
 
 namespace multires {
-
-/// Faces of each vertex, ascending; a face that repeats a vertex comes as often.
-using Incidence = Buckets<Index>;
-
-/// @param vertices  #V; face indices are in range
-Incidence vertex_faces(const Faces& faces, Index vertices);
 
 /// Faces that share a vertex or an edge.
 struct FaceGraph {
