@@ -186,6 +186,10 @@ struct Outcome {
 
 Outcome call(const Filter& filter, const Layer& layer, const std::map<std::string, double>& values) {
     Session session;
+    session.progress = Progress([](int percent, const char* what) {
+        EXPECT_TRUE(percent >= 0 && percent <= 100) << what << ": " << percent << " %";
+        return true;
+    });
     Outcome out;
     try {
         const Result result = run(filter, layer, session, values);

@@ -169,7 +169,7 @@ double least_risk_factor(const Thresholding& thresholding, const Coefficients& c
         (thresholding.rule() == Shrink::hard ? 6 : 3) / std::sqrt(static_cast<double>(surface.probe().size()));
     const double worth_edges = 0.9 - by_chance, worth_heights = 0.8 - by_chance;
     double best = worth_edges + worth_heights, factor = 0;
-    for (const double f : factors) {
+    for (const double& f : factors) {
         progress.report(static_cast<double>(&f - factors.data()) / factors.size(), "Choosing thresholds");
         const Positions after = thresholding.shrunk(c, thresholds, f, {}).positions;
         Positions response = thresholding.shrunk(probed, thresholds, f, {}).positions;
