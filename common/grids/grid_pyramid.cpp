@@ -128,8 +128,7 @@ Array<double> GridPyramid::correlate(const Raster& samples) const {
     Array<double> out(size_);
     Raster current = samples;
     for (int k = 0; k < levels(); ++k) {
-        for (std::size_t p = 0; p < current.values.size(); ++p)
-            if (!mask(k).values[p]) current.values[p] = 0;
+        clear_outside(mask(k), current);
         std::array<Raster, subbands> bands = multires::correlate(current, basis_);
         store(k, bands, out);
         current = std::move(bands[0]);
@@ -147,9 +146,7 @@ Raster GridPyramid::synthesise(const Array<double>& coefficients, int to) const 
         std::array<const double*, subbands> bands{current.values.data()};
         for (int type = 1; type < subbands; ++type) bands[type] = coefficients.data() + offset(k, type);
         current = multires::synthesise(bands, basis_, mask(k).rows, mask(k).columns);
-        if (k > 0)  // what the rim got belongs to no function that was kept
-            for (std::size_t p = 0; p < current.values.size(); ++p)
-                if (!mask(k).values[p]) current.values[p] = 0;
+        if (k > 0) clear_outside(mask(k), current);  // what the rim got belongs to no function that was kept
     }
     return current;
 }
@@ -157,8 +154,7 @@ Raster GridPyramid::synthesise(const Array<double>& coefficients, int to) const 
 Raster GridPyramid::refine(Raster samples, int from, int to) const {
     for (int k = from; k-- > to;) {
         samples = subdivided(samples, basis_, mask(k).rows, mask(k).columns);
-        for (std::size_t p = 0; p < samples.values.size(); ++p)
-            if (!mask(k).values[p]) samples.values[p] = 0;
+        clear_outside(mask(k), samples);
     }
     return samples;
 }

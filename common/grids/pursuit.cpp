@@ -77,8 +77,7 @@ public:
             if (largest_error() <= *options_.error) return result();
             target += target / 6 + 1;
         }
-        Sparse all = by_magnitude();  // rounding, or a bound as small
-        return all;
+        return by_magnitude();  // rounding, or a bound as small
     }
 
 private:
@@ -146,14 +145,11 @@ private:
 
     Rasters synthesised(const Vectors& x) const {
         Rasters out;
-        for (const Array<double>& v : unscaled(x)) out.push_back(masked(pyramid_.synthesise(v)));
+        for (const Array<double>& v : unscaled(x)) {
+            out.push_back(pyramid_.synthesise(v));
+            clear_outside(pyramid_.mask(0), out.back());
+        }
         return out;
-    }
-
-    Raster masked(Raster r) const {
-        for (std::size_t p = 0; p < r.values.size(); ++p)
-            if (!pyramid_.mask(0).values[p]) r.values[p] = 0;
-        return r;
     }
 
     Vectors correlated(const Rasters& r, bool of_chosen) const {

@@ -22,4 +22,10 @@ struct RasterOf {
 using Raster = RasterOf<double>;
 using Mask = RasterOf<std::uint8_t>;  ///< 1 where there is a sample
 
+/// Sets what is where there is no sample to 0.
+inline void clear_outside(const Mask& mask, Raster& raster) {
+    for (std::size_t p = 0; p < raster.values.size(); ++p)
+        if (!mask.values[p]) raster.values[p] = 0;
+}
+
 }  // namespace multires

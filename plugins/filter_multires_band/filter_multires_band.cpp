@@ -68,10 +68,7 @@ BandRow enhance_defaults(const Layer* layer) {
 }
 
 void bind_enhance(Parameters& p, BandRow& o) {
-    p.add("gain", &o.gain, "Gain",
-          "Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them.")
-        .slider(0, 10)
-        .in("Band");
+    bind_gain(p, o.gain);
     bind_stop_band(p, o);
 }
 

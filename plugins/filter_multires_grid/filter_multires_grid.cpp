@@ -58,10 +58,7 @@ GridBandRow band_defaults(const Layer* layer) {
 }
 
 void bind_grid_band(Parameters& p, GridBandRow& o) {
-    p.add("gain", &o.gain, "Gain",
-          "Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them.")
-        .slider(0, 10)
-        .in("Band");
+    bind_gain(p, o.gain);
     bind_band(p, o.band, o.given);
     p.add("gains", &o.gains, "Gains of levels",
           "If not empty, in place of gain and limits: a factor for each level, finest first, separated by commas. "
@@ -74,9 +71,7 @@ void bind_grid_band(Parameters& p, GridBandRow& o) {
 
 Result run_band(const Layer& layer, const GridBandRow& row, Session& session) {
     GridBandOptions o = row;
-    const Band derived = default_grid_band(layer, o.band.unit);
-    if (!row.given.finest) o.band.finest = derived.finest;
-    if (!row.given.coarsest) o.band.coarsest = derived.coarsest;
+    o.band = with_limits(o.band, row.given, default_grid_band(layer, o.band.unit));
     return grid_band(layer, o, session);
 }
 

@@ -126,11 +126,21 @@ struct GivenLimits {
     bool finest = false, coarsest = false;
 };
 
-inline Band with_derived_limits(const Layer& layer, Band band, const GivenLimits& given) {
-    const Band derived = default_band(layer, band.unit);
+inline Band with_limits(Band band, const GivenLimits& given, const Band& derived) {
     if (!given.finest) band.finest = derived.finest;
     if (!given.coarsest) band.coarsest = derived.coarsest;
     return band;
+}
+
+inline Band with_derived_limits(const Layer& layer, const Band& band, const GivenLimits& given) {
+    return with_limits(band, given, default_band(layer, band.unit));
+}
+
+inline void bind_gain(Parameters& p, double& gain) {
+    p.add("gain", &gain, "Gain",
+          "Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them.")
+        .slider(0, 10)
+        .in("Band");
 }
 
 inline void bind_band(Parameters& p, Band& band, GivenLimits& given) {

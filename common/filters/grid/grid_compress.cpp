@@ -53,10 +53,7 @@ Result grid_compress(const Layer& layer, const GridCompressOptions& options, Ses
         how.keep = static_cast<std::size_t>(options.share / 100 * grid.vertices);
         if (options.keep_by == KeepBy::error) how.error = options.error;
         const Sparse kept = sparse(pyramid, signal.channels(), how, part);
-        std::vector<Raster> change = kept.samples;
-        for (std::size_t c = 0; c < change.size(); ++c)
-            for (std::size_t p = 0; p < change[c].values.size(); ++p)
-                change[c].values[p] -= signal.channels()[c].values[p];
+        const std::vector<Raster> change = signal.change_to(kept.samples);
         errors.add(change, signal.channels());
         errors.vertices += grid.vertices, errors.kept += static_cast<double>(kept.kept);
         signal.add(change, after);

@@ -40,8 +40,14 @@ std::vector<Raster> surface_of(const GridPyramid& pyramid, const GridSignal& sig
     return all;
 }
 
-Part part_of(const Grid& grid, const Layer& layer, const GridOptions& options, int level, int shown) {
-    const GridPyramid pyramid = pyramid_of(grid, options);
+/// Of all grids.
+std::vector<GridPyramid> pyramids_of(const FoundGrids& found, const GridOptions& options) {
+    std::vector<GridPyramid> pyramids;
+    for (const Grid& grid : found.grids) pyramids.push_back(pyramid_of(grid, options));
+    return pyramids;
+}
+
+Part part_of(const Grid& grid, const GridPyramid& pyramid, const Layer& layer, int level, int shown) {
     level = std::min(level, pyramid.levels());
     shown = std::min(shown, level);
     const GridSignal signal(grid, layer.mesh.positions, GridChannels::positions);
@@ -56,7 +62,8 @@ Part part_of(const Grid& grid, const Layer& layer, const GridOptions& options, i
 }
 
 /// The layer's own vertices and faces, on the surface of a level.
-DerivedMesh own_vertices(const FoundGrids& found, const Layer& layer, const GridOptions& options, int level) {
+DerivedMesh own_vertices(const FoundGrids& found, const std::vector<GridPyramid>& pyramids, const Layer& layer,
+                         int level) {
     DerivedMesh all;
     all.source_vertex.resize(layer.mesh.positions.size());
     std::iota(all.source_vertex.begin(), all.source_vertex.end(), 0);
@@ -64,15 +71,10 @@ DerivedMesh own_vertices(const FoundGrids& found, const Layer& layer, const Grid
     all.source_face.resize(all.faces.size());
     std::iota(all.source_face.begin(), all.source_face.end(), 0);
     all.positions = layer.mesh.positions;
-    for (const Grid& grid : found.grids) {
-        const GridPyramid pyramid = pyramid_of(grid, options);
-        const GridSignal signal(grid, layer.mesh.positions, GridChannels::positions);
-        if (level == 0) continue;
-        std::vector<Raster> change = surface_of(pyramid, signal, std::min(level, pyramid.levels()), 0);
-        for (int c = 0; c < 3; ++c)
-            for (std::size_t p = 0; p < change[c].values.size(); ++p)
-                change[c].values[p] -= signal.channels()[c].values[p];
-        signal.add(change, *all.positions);
+    for (std::size_t g = 0; level > 0 && g < found.grids.size(); ++g) {
+        const GridSignal signal(found.grids[g], layer.mesh.positions, GridChannels::positions);
+        const int own = std::min(level, pyramids[g].levels());
+        signal.add(signal.change_to(surface_of(pyramids[g], signal, own, 0)), *all.positions);
     }
     return all;
 }
@@ -90,10 +92,12 @@ DerivedMesh joined(const std::vector<Part>& parts) {
     return all;
 }
 
-DerivedMesh level_of(const FoundGrids& found, const Layer& layer, const GridOptions& options, int level, int shown) {
-    if (shown == 0) return own_vertices(found, layer, options, level);
+DerivedMesh level_of(const FoundGrids& found, const std::vector<GridPyramid>& pyramids, const Layer& layer, int level,
+                     int shown) {
+    if (shown == 0) return own_vertices(found, pyramids, layer, level);
     std::vector<Part> parts;
-    for (const Grid& grid : found.grids) parts.push_back(part_of(grid, layer, options, level, shown));
+    for (std::size_t g = 0; g < pyramids.size(); ++g)
+        parts.push_back(part_of(found.grids[g], pyramids[g], layer, level, shown));
     return joined(parts);
 }
 
@@ -102,21 +106,21 @@ bool same_faces(const Mesh& mesh, std::size_t vertices, const Faces& faces) {
 }
 
 /// The level whose control mesh has these faces.
-DerivedMesh matching_level(const FoundGrids& found, const Layer& layer, const GridEditOptions& options,
+DerivedMesh matching_level(const FoundGrids& found, const std::vector<GridPyramid>& pyramids, const Layer& layer,
                            const Layer& edited, const Progress& progress, int& level) {
-    const int most = pyramid_of(found.grids[0], options.grid).levels();
+    const int most = pyramids[0].levels();
     if (same_faces(edited.mesh, layer.mesh.positions.size(), layer.mesh.faces))
-        return own_vertices(found, layer, options.grid, level = 0);
+        return own_vertices(found, pyramids, layer, level = 0);
     for (level = 1; level <= most; ++level) {
         progress.report(0.1 + 0.5 * level / (most + 1), "Finding the level");
         std::vector<Part> meshes;
-        for (const Grid& grid : found.grids) {
-            const GridPyramid pyramid = pyramid_of(grid, options.grid);
-            meshes.push_back({control_mesh(grid, pyramid, std::min(level, pyramid.levels()), layer.mesh.faces), {}});
+        for (std::size_t g = 0; g < pyramids.size(); ++g) {
+            const int own = std::min(level, pyramids[g].levels());
+            meshes.push_back({control_mesh(found.grids[g], pyramids[g], own, layer.mesh.faces), {}});
         }
         const DerivedMesh mesh = joined(meshes);
         if (same_faces(edited.mesh, mesh.source_vertex.size(), mesh.faces))
-            return level_of(found, layer, options.grid, level, level);
+            return level_of(found, pyramids, layer, level, level);
     }
     throw InputError("edited: it is no control mesh of the current layer; make one with Grid Level as Layer, with the "
                      "same basis and levels, and move its vertices only");
@@ -132,18 +136,19 @@ Positions ways_of(const Positions& before, const Positions& after) {
 }
 
 /// Adds the control points' ways, each times its function.
-void follow(const FoundGrids& found, const Layer& layer, const GridOptions& options, int level, const Positions& way,
-            Positions& after) {
+void follow(const FoundGrids& found, const std::vector<GridPyramid>& pyramids, const Faces& faces, int level,
+            const Positions& way, Positions& after) {
     std::size_t first = 0;
-    for (const Grid& grid : found.grids) {
+    for (std::size_t g = 0; g < pyramids.size(); ++g) {
+        const Grid& grid = found.grids[g];
         if (level == 0) {  // in the layer's own order
             for (const Index v : grid.vertex)
                 if (v >= 0) after[v] += way[v];
             continue;
         }
-        const GridPyramid pyramid = pyramid_of(grid, options);
+        const GridPyramid& pyramid = pyramids[g];
         const int own = std::min(level, pyramid.levels());
-        const ControlMesh mesh = control_mesh(grid, pyramid, own, layer.mesh.faces);
+        const ControlMesh mesh = control_mesh(grid, pyramid, own, faces);
         std::vector<Raster> change(3, Raster(pyramid.mask(own).rows, pyramid.mask(own).columns, 0));
         for (std::size_t v = 0; v < mesh.place.size(); ++v)
             for (int c = 0; c < 3; ++c) change[c].values[mesh.place[v]] = way[first + v][c];
@@ -160,13 +165,14 @@ void follow(const FoundGrids& found, const Layer& layer, const GridOptions& opti
 Result generate_grid_level(const Layer& layer, const GridLevelOptions& options, Session& session) {
     session.progress.report(0, "Finding the grid");
     const FoundGrids found = grids_of(layer, options.grid);
-    const int last = pyramid_of(found.grids[0], options.grid).levels();
+    const std::vector<GridPyramid> pyramids = pyramids_of(found, options.grid);
+    const int last = pyramids[0].levels();
     require(options.level >= 0 && options.level <= last,
             "level must be between 0 and " + std::to_string(last) + ", the number of levels of this mesh");
     require(options.refine >= 0 && options.refine <= options.level + 3,
             "refine must be between 0 and " + std::to_string(options.level + 3) + ", three more than the level");
     session.progress.report(0.2, "Transforming");
-    DerivedMesh derived = level_of(found, layer, options.grid, options.level, options.level - options.refine);
+    DerivedMesh derived = level_of(found, pyramids, layer, options.level, options.level - options.refine);
     derived.name = options.refine == 0 ? "control mesh " + std::to_string(options.level)
                                        : "surface of level " + std::to_string(options.level);
     Result result;
@@ -187,11 +193,12 @@ Result grid_edit(const Inputs& inputs, const GridEditOptions& options, Session& 
                         [](const Vec3& p) { return p.allFinite(); }),
             "edited: coordinates are not numbers or infinite");
     int level = 0;
-    const DerivedMesh before = matching_level(found, layer, options, edited, session.progress, level);
+    const std::vector<GridPyramid> pyramids = pyramids_of(found, options.grid);
+    const DerivedMesh before = matching_level(found, pyramids, layer, edited, session.progress, level);
     const Positions way = ways_of(*before.positions, in_layer(edited, layer, "edited"));
     session.progress.report(0.8, "Following");
     Positions after = layer.mesh.positions;
-    follow(found, layer, options.grid, level, way, after);
+    follow(found, pyramids, layer.mesh.faces, level, way, after);
     blend(layer.mesh.positions, weights, after);
     result.report.add("level", level);
     report_change(layer, after, result.report);

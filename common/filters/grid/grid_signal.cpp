@@ -96,6 +96,12 @@ void GridSignal::fit(const Positions& positions) {
     }
 }
 
+std::vector<Raster> GridSignal::change_to(std::vector<Raster> samples) const {
+    for (std::size_t c = 0; c < samples.size(); ++c)
+        for (std::size_t p = 0; p < samples[c].values.size(); ++p) samples[c].values[p] -= samples_[c].values[p];
+    return samples;
+}
+
 void GridSignal::add(const std::vector<Raster>& change, Positions& positions) const {
     for_points(grid_, [&](Index i, Index j, Index v) {
         for (std::size_t c = 0; c < axes_.size(); ++c) positions[v] += change[c].row(i)[j] * axes_[c];

@@ -39,6 +39,8 @@ public:
     const std::vector<Raster>& channels() const { return samples_; }
     /// The affine part at a point of the lattice; fractions are between points.
     Vec3 affine(double i, double j) const { return middle_ + (i - mean_i_) * along_i_ + (j - mean_j_) * along_j_; }
+    /// What other samples differ by.
+    std::vector<Raster> change_to(std::vector<Raster> samples) const;
     /// Adds changes of the samples to positions of the vertices.
     void add(const std::vector<Raster>& change, Positions& positions) const;
 
