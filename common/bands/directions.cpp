@@ -1,5 +1,6 @@
 #include "bands/directions.h"
 
+#include "bands/slide.h"
 #include "bands/spline.h"
 #include "base/parallel.h"
 
@@ -99,6 +100,7 @@ void move_along_normals(const Mesh& mesh, const Stiffness& neighbours, Positions
             moved[i] = smooth[i] - share[i] * along[i];
         });
     }
+    slide_back(mesh, neighbours, smooth, moved);
     smooth = std::move(moved);
 }
 

@@ -13,7 +13,7 @@ Array<Vec3> directions(const Faces& faces, const Positions& positions);
 /// Takes from the way of each vertex from mesh.positions to `smooth` the part along the surface `smooth`, as far as no
 /// face turns by more than 45 degrees against that surface (where that has turned a face over among its neighbours,
 /// against those). Where one would, its vertices take 0.7 of what is left of that part, those around them follow a
-/// little, and so on.
+/// little, and so on. In the end they slide back where they can (slide.h).
 /// @param neighbours  of the mesh: offset and column
 /// @param smooth      #V by 3; the result afterwards
 /// Cost: linear; a pass over the faces for each step, 30 at most. Same bits for any number of threads.

@@ -1,0 +1,85 @@
+#include "bands/slide.h"
+
+#include "bands/spline.h"
+#include "base/angles.h"
+#include "fixtures.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace multires {
+
+namespace {
+
+constexpr Index around = 100, across = 40;
+
+/// A torus whose vertices went inwards by a tenth, and along it by up to 0.045.
+struct Slid {
+    Mesh mesh = shapes::torus(around, across, 1, 0.4);
+    Positions feet = shapes::torus(around, across, 1, 0.3).positions, smooth = feet;
+
+    Slid() {
+        for (Index i = 0; i < around; ++i)
+            for (Index j = 0; j < across; ++j) {
+                const double u = 2 * pi * i / around, v = 2 * pi * j / across + 0.15 * std::sin(3 * u);
+                const double r = 1 + 0.3 * std::cos(v);
+                smooth[i * across + j] = Vec3(r * std::cos(u), r * std::sin(u), 0.3 * std::sin(v));
+            }
+    }
+    Positions back() const {
+        Positions moved = smooth;
+        slide_back(mesh, stiffness(mesh), smooth, moved);
+        return moved;
+    }
+};
+
+}  // namespace
+
+TEST(Slide, VerticesComeToLieOnTheNormalsThroughWhereTheyWere) {
+    const Slid slid;
+    const Positions moved = slid.back();
+    double before = 0, after = 0;
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+        before = std::max(before, (slid.smooth[i] - slid.feet[i]).norm());
+        after = std::max(after, (moved[i] - slid.feet[i]).norm());
+    }
+    EXPECT_GT(before, 0.04);
+    EXPECT_LT(after, 0.006);  // tangents, not arcs: 0.045^2 / (2 0.3) = 0.0034
+    const Drift d = drift(slid.mesh.faces, slid.mesh.positions, moved);
+    EXPECT_LT(d.tangential_rms, 0.05 * d.normal_rms);
+}
+
+TEST(Slide, NormalsThatCancelTakeNothingOfTheWay) {
+    Slid slid;
+    for (std::size_t i = 0; i < slid.mesh.faces.size(); i += 2) std::swap(slid.mesh.faces[i][1], slid.mesh.faces[i][2]);
+    const Positions moved = slid.back();
+    for (std::size_t i = 0; i < moved.size(); ++i)
+        EXPECT_LT((moved[i] - slid.feet[i]).norm(), 0.05) << i;  // none went back outwards by the tenth
+}
+
+TEST(Slide, LittleDriftIsLeftAlone) {
+    const Slid slid;
+    Positions moved = slid.feet;
+    slide_back(slid.mesh, stiffness(slid.mesh), slid.smooth, moved);
+    EXPECT_EQ(moved, slid.feet);
+}
+
+TEST(Slide, FingersThatACutoffTakesAwayDriftLess) {
+    Mesh mesh = shapes::irregular_sphere(8000, {0.3, 0.3, 5});
+    const std::array<Vec3, 3> tips{Vec3(1, 0, 0), Vec3(-0.5, 0.8, 0.3).normalized(),
+                                   Vec3(-0.3, -0.6, -0.7).normalized()};
+    for (Vec3& p : mesh.positions) {
+        double height = 0;
+        for (const Vec3& tip : tips) height += 0.8 * std::exp(-(p - tip).squaredNorm() / 0.04);
+        p *= 1 + height;
+    }
+    const Spline spline(mesh, {}, {});
+    const Positions after = spline.low_pass(mesh, {LowPassOrder::second, 30 * spline.mean_edge()}, "cutoff", {});
+    const Drift d = drift(mesh.faces, mesh.positions, after);
+    EXPECT_LT(d.tangential_rms, 0.12 * d.normal_rms);  // 0.17 without slide_back()
+}
+
+}  // namespace multires
