@@ -198,11 +198,18 @@ def limits(rows, pyramid):
     return [*lines, "}", '"""Least and most of the numbers that have both, by function (or class) and parameter."""']
 
 
+def filters(rows):
+    """The filter of every function, as pymeshlab and as MeshLab's menu call it."""
+    lines = ["", "", "FILTERS: dict[str, tuple[str, str]] = {"]
+    lines += [f'    "{function_name(r)}": ("{r["python_name"]}", "{r["name"]}"),' for r in rows]
+    return [*lines, "}", '"""By function: the name of its filter in pymeshlab, and the one in MeshLab\'s menu."""']
+
+
 def python_module(rows):
     """python/src/pymeshlab_multires/_filters.py"""
     shared, pyramid = shared_choices(rows), pyramid_parameters(rows)
     names = sorted([*map(function_name, rows), *map(report_class, rows), *shared.values(), *[b[0] for b in BASES],
-                    "LIMITS", "Pyramid"])  # fmt: skip
+                    "FILTERS", "LIMITS", "Pyramid"])  # fmt: skip
     used = {TYPES.get(p["type"]) for r in rows for p in r["parameters"]}
     imported = ["Array", "MeshSet", *["Vector"] * ("Vector" in used), "also_flat", "apply"]
     lines = [
@@ -223,4 +230,4 @@ def python_module(rows):
     ]
     for row in rows:
         lines += function(row, pyramid, shared)
-    return "\n".join(lines + limits(rows, pyramid)) + "\n"
+    return "\n".join(lines + limits(rows, pyramid) + filters(rows)) + "\n"

@@ -6,6 +6,8 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
+import zipfile
 
 import pytest
 
@@ -35,6 +37,28 @@ def meshes(tmp_path_factory):
     folder = tmp_path_factory.mktemp("meshes")
     subprocess.run([BUILD / "meshes/make_meshes", folder], check=True)
     return folder
+
+
+@pytest.fixture(scope="session")
+def wheel(tmp_path_factory):
+    """The Python package, built with the plugins that are there."""
+    folder = tmp_path_factory.mktemp("wheel")
+    subprocess.run([sys.executable, "-m", "pip", "wheel", "-q", "--no-build-isolation", "--no-deps", "-w", folder,
+                    f"--config-settings=cmake.define.MULTIRES_PLUGINS={BUILD / 'plugins'}", BUILD.parents[1] / "python"],
+                   check=True)  # fmt: skip
+    return next(folder.glob("*.whl"))
+
+
+@pytest.fixture(scope="session")
+def multires(wheel, tmp_path_factory):
+    """The package, from its wheel."""
+    folder = tmp_path_factory.mktemp("package")
+    zipfile.ZipFile(wheel).extractall(folder)
+    sys.path.insert(0, str(folder))
+    import pymeshlab_multires
+
+    assert pymeshlab_multires.__file__.startswith(str(folder))
+    return pymeshlab_multires
 
 
 def citations(info):

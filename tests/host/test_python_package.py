@@ -7,7 +7,6 @@ import re
 import subprocess
 import sys
 import textwrap
-import zipfile
 
 import numpy as np
 import pymeshlab
@@ -17,27 +16,6 @@ from conftest import BUILD, FILTER_IDS, FILTERS, citations, wants_another_layer,
 ROOT = BUILD.parents[1]
 sys.path.insert(0, str(ROOT / "tools"))
 import generate  # noqa: E402
-
-
-@pytest.fixture(scope="session")
-def wheel(tmp_path_factory):
-    """Built with the plugins that are there."""
-    folder = tmp_path_factory.mktemp("wheel")
-    subprocess.run([sys.executable, "-m", "pip", "wheel", "-q", "--no-build-isolation", "--no-deps", "-w", folder,
-                    f"--config-settings=cmake.define.MULTIRES_PLUGINS={BUILD / 'plugins'}", ROOT / "python"], check=True)  # fmt: skip
-    return next(folder.glob("*.whl"))
-
-
-@pytest.fixture(scope="session")
-def multires(wheel, tmp_path_factory):
-    """The package, from its wheel."""
-    folder = tmp_path_factory.mktemp("package")
-    zipfile.ZipFile(wheel).extractall(folder)
-    sys.path.insert(0, str(folder))
-    import pymeshlab_multires
-
-    assert pymeshlab_multires.__file__.startswith(str(folder))
-    return pymeshlab_multires
 
 
 def document(meshes, name="terrain", another_layer=False):

@@ -15,9 +15,9 @@ pymeshlab.PyMeshLabException and leaves the document as it was.
 from . import _call
 from ._equalize import EqualizeReport, equalize
 from ._filters import *  # noqa: F403
-from ._filters import __all__ as _filters
+from ._filters import __all__ as _names
 from ._plot import plot_roughness, plot_spectrum
 
-__all__ = [*_filters, "EqualizeReport", "equalize", "plot_roughness", "plot_spectrum"]
+__all__ = [*_names, "EqualizeReport", "equalize", "plot_roughness", "plot_spectrum"]
 
 _call.load_plugins()
