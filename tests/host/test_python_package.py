@@ -2,10 +2,13 @@
 
 import dataclasses
 import inspect
+import json
 import os
+import pathlib
 import re
 import subprocess
 import sys
+import tarfile
 import textwrap
 
 import numpy as np
@@ -265,6 +268,7 @@ def test_types_are_strict(multires, tmp_path):
 
 def test_the_wheel_works_in_a_fresh_environment(wheel, meshes, tmp_path):
     """With nothing but what pip installs for it."""
+    assert re.search(r"-py3-none-manylinux_2_\d+_x86_64\.whl$", wheel.name)
     subprocess.run([sys.executable, "-m", "venv", tmp_path / "venv"], check=True)
     python = tmp_path / "venv/bin/python"
     subprocess.run([python, "-m", "pip", "install", "-q", wheel], check=True)
@@ -284,6 +288,46 @@ def test_the_wheel_works_in_a_fresh_environment(wheel, meshes, tmp_path):
     done = subprocess.run([python, "-c", textwrap.dedent(script)], check=True, text=True, stdout=subprocess.PIPE,
                           cwd=tmp_path, env=clean)  # fmt: skip
     assert done.stdout.strip() == "fine"
+
+
+def test_another_pymeshlab_is_refused_with_the_remedy(multires, tmp_path):
+    (tmp_path / "pymeshlab-2023.12.dist-info").mkdir()
+    (tmp_path / "pymeshlab-2023.12.dist-info/METADATA").write_text("Metadata-Version: 2.1\nName: pymeshlab\nVersion: 2023.12\n")
+    path = os.pathsep.join([str(tmp_path), os.path.dirname(os.path.dirname(multires.__file__))])
+    done = subprocess.run([sys.executable, "-c", "import pymeshlab_multires"], env=os.environ | {"PYTHONPATH": path},
+                          text=True, stderr=subprocess.PIPE)  # fmt: skip
+    said = "built for pymeshlab 2025.7, and 2023.12 is installed: pip install 'pymeshlab==2025.7.*'"
+    assert done.returncode == 1 and f"ImportError: pymeshlab_multires was {said}" in done.stderr
+
+
+def test_the_sdist_holds_what_the_plugins_are_built_from(tmp_path):
+    """Configured, not compiled again."""
+    code = f"import multires_build; print(multires_build.build_sdist({str(tmp_path)!r}))"
+    done = subprocess.run([sys.executable, "-c", code], check=True, text=True, stdout=subprocess.PIPE, cwd=ROOT / "python",
+                          env=os.environ | {"PYTHONPATH": str(ROOT / "python/backend")})  # fmt: skip
+    name = done.stdout.split()[-1]
+    with tarfile.open(tmp_path / name) as archive:
+        archive.extractall(tmp_path)
+    source = tmp_path / name.removesuffix(".tar.gz")
+    cache = (BUILD / "CMakeCache.txt").read_text()
+    given = [f"-D{n}={re.search(rf'^{n}:[A-Z]+=(.*)$', cache, re.MULTILINE)[1]}" for n in ("MESHLAB_SOURCE_DIR", "MESHLAB_COMMON_LIBRARY")]
+    subprocess.run(["cmake", "-S", source, "-B", tmp_path / "build", "-G", "Ninja", *given], check=True, stdout=subprocess.PIPE)
+    compiled = json.loads((tmp_path / "build/compile_commands.json").read_text())
+    files = {str(pathlib.Path(entry["file"]).relative_to(source / "multires")) for entry in compiled
+             if pathlib.Path(entry["file"]).is_relative_to(source)}  # fmt: skip
+    wanted = {str(path.relative_to(ROOT)) for folder in ("common", "plugins") for path in (ROOT / folder).rglob("*.cpp")}
+    assert files == {path for path in wanted if not path.endswith("_2020.cpp")}
+    for plugin in sorted(BUILD.glob("plugins/*.so")):
+        assert f"{plugin.stem.removeprefix('lib')}_class.cpp" in str([entry["file"] for entry in compiled])
+
+
+def test_the_conda_recipe_is_one_of_this_version():
+    import rattler_build
+
+    project = (ROOT / "python/pyproject.toml").read_text()
+    version = re.search(r'^version = "(.*)"', project, re.MULTILINE)[1]
+    recipe = rattler_build.Stage0Recipe.from_file(ROOT / "conda/recipe.yaml")
+    assert recipe.as_single_output().context["version"] == version
 
 
 def build(source, **settings):

@@ -1,7 +1,9 @@
 """Loading the plugins, and calling a filter."""
 
+import contextlib
 import dataclasses
 import functools
+import importlib.metadata
 import pathlib
 import warnings
 from collections.abc import Callable
@@ -22,14 +24,29 @@ class MeshSet(Protocol):
     def apply_filter(self, filter_name: str, /, **parameters: Any) -> Any: ...
 
 
+BUILT_FOR = "2025.7"  # a plugin works in the pymeshlab it was built for and in no other
+
+
+def check_pymeshlab() -> None:
+    """Raises ImportError if the pymeshlab that is installed is another one. What does not tell its version may pass."""
+    with contextlib.suppress(importlib.metadata.PackageNotFoundError):
+        found = importlib.metadata.version("pymeshlab")
+        if f"{found}.".startswith(f"{BUILT_FOR}."):
+            return
+        raise ImportError(f"{__package__} was built for pymeshlab {BUILT_FOR}, and {found} is installed: "
+                          f"pip install 'pymeshlab=={BUILT_FOR}.*'")  # fmt: skip
+
+
 def load_plugins() -> None:
     """Loads the package's plugins into pymeshlab; one that was loaded by hand before stays.
 
-    Raises ImportError if the package holds none.
+    Raises ImportError if the package holds none, or if they were built for another pymeshlab.
     """
+    check_pymeshlab()
     import pymeshlab  # type: ignore[import-untyped, unused-ignore]
 
-    plugins = sorted((pathlib.Path(__file__).parent / "plugins").glob("libfilter_multires_*.so"))
+    found = (pathlib.Path(__file__).parent / "plugins").glob("*filter_multires_*")
+    plugins = sorted(file for file in found if file.suffix in (".so", ".dylib", ".dll"))
     if not plugins:
         raise ImportError(f"{__package__} was installed without its plugins")
     for plugin in plugins:
@@ -37,7 +54,7 @@ def load_plugins() -> None:
             pymeshlab.load_plugin(str(plugin))
         except pymeshlab.PyMeshLabException as error:
             if "already loaded" not in str(error):
-                raise
+                raise ImportError(f"{plugin}: {error}") from error
 
 
 def forget_failed_document() -> None:
