@@ -262,12 +262,6 @@ Choice choose_on_sample(const Faces& faces, const Positions& positions, const In
                   {sample.deviation, noise.factor, noise.certain, noise.normal_steps}, sample.core, tick);
 }
 
-double mean_square(const Positions& p) {
-    double sum = 0;
-    for (const Vec3& v : p) sum += v.squaredNorm();
-    return p.empty() ? 0 : sum / static_cast<double>(p.size());
-}
-
 /// What of the shifts within the surface is made.
 struct Shares {
     double smoothing = 1, turning = 1;

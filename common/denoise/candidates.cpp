@@ -11,12 +11,12 @@ namespace {
 
 /// Averaging steps that make the energy of each band local, and how many more of them for the noise's energy, which
 /// varies with the sampling only.
-constexpr std::array<int, 6> local_steps = {4, 6, 9, 15, 25, 40};
+constexpr std::array<int, 6> steps_of_level = {4, 6, 9, 15, 25, 40};
 constexpr int noise_steps = 12;
 /// Lengths of the pushes that measure how candidates answer that are not linear, in samples of the noise: guided
 /// normals jump where another patch becomes the most consistent one.
 constexpr double field_push = 0.1, guided_push = 0.4;
-constexpr double rounding = 1e-4;  ///< differences of normals that coordinates in single precision make
+constexpr double normal_rounding = 1e-4;  ///< differences of normals that coordinates in single precision make
 constexpr int fit_steps = 8;       ///< more would follow the normals further and lose volume
 
 void add_scaled(std::vector<double>& to, double factor, const std::vector<double>& from) {
@@ -93,7 +93,7 @@ std::vector<CandidateMaker::Band> CandidateMaker::bands(const LowPasses& low) co
             band.energy[i + 1] = d * b;
             band.energy[i + 2] = other * other;  // not b's, or the gains would know the probe
         });
-        average(near_, band.energy, 3, local_steps[level]);
+        average(near_, band.energy, 3, steps_of_level[level]);
         parallel_for(near_.rows(), [&](Index v) { band.noise[v] = band.energy[3 * static_cast<std::size_t>(v) + 2]; });
         average(near_, band.noise, 1, noise_steps);
     }
@@ -127,7 +127,7 @@ Positions CandidateMaker::field(const Positions& from, double strength, const st
     options.strength = strength;
     NormalFieldStats stats;
     const Array<Vec3> normals = denoise_normals(faces_, from, graph(), options, stats, tick);
-    return stats.noise > rounding ? fit_vertices(faces_, from, at_, normals, fit_steps) : from;
+    return stats.noise > normal_rounding ? fit_vertices(faces_, from, at_, normals, fit_steps) : from;
 }
 
 double CandidateMaker::side() const {

@@ -10,7 +10,7 @@
 namespace multires {
 namespace {
 
-constexpr int local_steps = 6;    ///< averaging that makes an energy local
+constexpr int energy_steps = 6;    ///< averaging that makes an energy local
 constexpr int smooth_steps = 20;  ///< more of it for what white noise leaves: a property of the mesh alone
 constexpr std::size_t bins = 10;
 
@@ -75,7 +75,7 @@ double Energies::mean() const {
 std::vector<double> local_squares(const Neighbours& near, const std::vector<double>& detail) {
     std::vector<double> energy(detail.size());
     for (std::size_t i = 0; i < detail.size(); ++i) energy[i] = detail[i] * detail[i];
-    average(near, energy, 3, local_steps);
+    average(near, energy, 3, energy_steps);
     return energy;
 }
 

@@ -30,9 +30,9 @@ std::vector<double> detail(const Neighbours& near, const std::vector<double>& we
 }
 
 /// Lengths of details of the values and of two samples of noise, over what the mesh makes of noise locally.
-class Lengths {
+class ValueLengths {
 public:
-    Lengths(const Neighbours& near, const std::vector<double>& h) {
+    ValueLengths(const Neighbours& near, const std::vector<double>& h) {
         constexpr int local_steps = 10;
         std::vector<double> energy(h.size());
         for (std::size_t i = 0; i < h.size(); ++i) energy[i] = h[i] * h[i];
@@ -69,10 +69,10 @@ double field_noise(const Neighbours& near, const std::vector<double>& weight, co
         for (int c = 1; c < 3; ++c) h[3 * v + c] = gaussian(v, 200 + c);
     }
     h = detail(near, weight, h);
-    Lengths first(near, h);
+    ValueLengths first(near, h);
     if (first.empty()) return 0;
     h = detail(near, weight, detail(near, weight, h));
-    Lengths third(near, h);
+    ValueLengths third(near, h);
     // A step spoils the third differences of more vertices than it does the first.
     const double low = std::min(first.ratio(quiet), third.ratio(quiet));
     if (!(low > 0)) return 0;

@@ -9,7 +9,7 @@
 namespace multires {
 namespace {
 
-constexpr double rounding = 1e-6;  ///< of the largest coordinate: single precision, with a margin
+constexpr double coordinate_rounding = 1e-6;  ///< of the largest coordinate: single precision, with a margin
 constexpr double off = 0.05;       ///< how far a coordinate may be from the lattice, in steps
 
 /// The different values of a coordinate, ascending.
@@ -39,7 +39,7 @@ std::optional<double> fitted(const std::vector<double>& values, double step) {
 std::optional<double> lattice_step(const Positions& p, double least) {
     double largest = 0;
     for (const Vec3& v : p) largest = std::max(largest, v.cwiseAbs().maxCoeff());
-    const double tolerance = rounding * largest;
+    const double tolerance = coordinate_rounding * largest;
     if (!(least > 10 * tolerance)) return std::nullopt;
     std::array<std::vector<double>, 3> values;
     double step = 2 * largest;

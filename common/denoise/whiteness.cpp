@@ -12,9 +12,9 @@ namespace multires {
 namespace {
 
 /// Lengths of differences of the surface and of two samples of noise.
-using Lengths = std::array<std::vector<double>, 3>;
+using DifferenceLengths = std::array<std::vector<double>, 3>;
 
-Lengths third_differences(const Neighbours& near, const Positions& positions, const Array<Vec3>& normal) {
+DifferenceLengths third_differences(const Neighbours& near, const Positions& positions, const Array<Vec3>& normal) {
     constexpr int local_steps = 20;
     const AlongNormals surface(near, positions, normal, {});
     std::vector<double> h(3 * near.rows(), 0);
@@ -24,7 +24,7 @@ Lengths third_differences(const Neighbours& near, const Positions& positions, co
     std::vector<double> energy(h.size());
     for (std::size_t i = 0; i < h.size(); ++i) energy[i] = h[i] * h[i];
     average(near, energy, 3, local_steps);
-    Lengths lengths;
+    DifferenceLengths lengths;
     for (Index v = 0; v < near.rows(); ++v) {
         const double local = std::sqrt((energy[3 * v + 1] + energy[3 * v + 2]) / 2);
         if (near.rim[v] || !(local > 0)) continue;
@@ -41,7 +41,7 @@ double ratio(std::vector<double>& lengths, double low, double high) {
 }  // namespace
 
 double whiteness(const Neighbours& near, const Positions& positions, const Array<Vec3>& normal) {
-    Lengths lengths = third_differences(near, positions, normal);
+    DifferenceLengths lengths = third_differences(near, positions, normal);
     if (lengths[0].empty()) return 0;
     double least = 1;
     for (const auto& [low, high] : {std::pair{0.3, 0.9}, std::pair{0.5, 0.97}}) {

@@ -31,15 +31,6 @@ Vec3 to_middle(const Neighbours& near, const Positions& p, Index v) {
     return near.size(v) > 0 ? Vec3(sum / near.size(v)) : sum;
 }
 
-double mean_square(const Positions& p) {
-    const double sum = chunked_reduce<double>(p.size(), [&](std::size_t begin, std::size_t end) {
-        double part = 0;
-        for (std::size_t i = begin; i < end; ++i) part += p[i].squaredNorm();
-        return part;
-    });
-    return p.empty() ? 0 : sum / static_cast<double>(p.size());
-}
-
 bool is_bad(const Face& f, const Positions& p, const Array<Vec3>& normal, const Bad& bad) {
     const Vec3 ab = p[f[1]] - p[f[0]], ac = p[f[2]] - p[f[0]], bc = p[f[2]] - p[f[1]];
     const Vec3 n = ab.cross(ac), wanted = normal[f[0]] + normal[f[1]] + normal[f[2]];
@@ -165,6 +156,15 @@ void smooth_noise(const Positions& p, const Positions& noise, const Neighbours& 
 }
 
 }  // namespace
+
+double mean_square(const Positions& p) {
+    const double sum = chunked_reduce<double>(p.size(), [&](std::size_t begin, std::size_t end) {
+        double part = 0;
+        for (std::size_t i = begin; i < end; ++i) part += p[i].squaredNorm();
+        return part;
+    });
+    return p.empty() ? 0 : sum / static_cast<double>(p.size());
+}
 
 WithinSurface relax_within_surface(const Faces& faces, const Positions& positions, const Neighbours& near,
                                    const SurfaceNoise& noise, double edge) {

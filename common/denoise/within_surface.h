@@ -23,4 +23,7 @@ struct WithinSurface {
 WithinSurface relax_within_surface(const Faces& faces, const Positions& positions, const Neighbours& near,
                                    const SurfaceNoise& noise, double edge);
 
+/// Mean of the squared lengths of the rows; 0 without rows.
+double mean_square(const Positions& rows);
+
 }  // namespace multires

@@ -11,15 +11,15 @@ namespace multires {
 namespace {
 
 /// The two other corners of a face, seen from one corner, in the face's orientation.
-struct Wedge {
+struct RingEdge {
     Index from, to;
 };
 
-Buckets<Wedge> wedges_by_vertex(const Mesh& mesh) {
+Buckets<RingEdge> wedges_by_vertex(const Mesh& mesh) {
     return {static_cast<Index>(mesh.positions.size()), [&](const auto& put) {
                 for (const Face& f : mesh.faces)
                     if (!repeats_an_index(f))
-                        for (int k = 0; k < 3; ++k) put(f[k], Wedge{f[(k + 1) % 3], f[(k + 2) % 3]});
+                        for (int k = 0; k < 3; ++k) put(f[k], RingEdge{f[(k + 1) % 3], f[(k + 2) % 3]});
             }};
 }
 
@@ -29,14 +29,14 @@ Buckets<Wedge> wedges_by_vertex(const Mesh& mesh) {
 /// wedge that starts the ring.
 class Chainer {
 public:
-    RingKind chain(Wedge* wedges, Index count) {
+    RingKind chain(RingEdge* wedges, Index count) {
         if (count == 0) return RingKind::isolated;
         return chain_oriented(wedges, count) ? kind_of(wedges, count) : chain_unoriented(wedges, count);
     }
 
 private:
     /// The common case, consistent orientation and small valence: follow `from` to `to`, in place.
-    static bool chain_oriented(Wedge* w, Index n) {
+    static bool chain_oriented(RingEdge* w, Index n) {
         if (n > 32) return false;
         Index first = 0;  // a wedge whose `from` is no other's `to` starts an open ring
         for (Index i = 0; i < n; ++i) {
@@ -59,13 +59,13 @@ private:
         return true;
     }
 
-    static RingKind kind_of(const Wedge* w, Index n) {
+    static RingKind kind_of(const RingEdge* w, Index n) {
         if (w[n - 1].to != w[0].from) return RingKind::open;
         return n >= 3 ? RingKind::closed : RingKind::irregular;
     }
 
     /// Any orientation and valence: sort the wedge ends, then walk from wedge to wedge over shared neighbours.
-    RingKind chain_unoriented(Wedge* w, Index n) {
+    RingKind chain_unoriented(RingEdge* w, Index n) {
         ends_.clear();
         for (Index i = 0; i < n; ++i) {
             ends_.push_back({w[i].from, i});
@@ -86,7 +86,7 @@ private:
             i = j;
         }
         out_.clear();
-        Wedge current = w[start];
+        RingEdge current = w[start];
         if (open && mates(current.from) != 1) std::swap(current.from, current.to);
         const Index begin = current.from;
         Index at = start;
@@ -96,7 +96,7 @@ private:
             if (next < 0) break;
             at = next;
             const Index shared = current.to;
-            current = w[next].from == shared ? w[next] : Wedge{w[next].to, w[next].from};
+            current = w[next].from == shared ? w[next] : RingEdge{w[next].to, w[next].from};
             if (!open && shared == begin) break;
         }
         if (static_cast<Index>(out_.size()) != n) return RingKind::irregular;  // more than one fan
@@ -120,7 +120,7 @@ private:
     }
 
     std::vector<std::pair<Index, Index>> ends_;  // (neighbour, wedge)
-    std::vector<Wedge> out_;
+    std::vector<RingEdge> out_;
 };
 
 /// Where the neighbour stands in a row, -1 if not.
@@ -155,7 +155,7 @@ Index flap_of(const Rings& rings, Index i, Index j) {
 }  // namespace
 
 Rings vertex_rings(const Mesh& mesh) {
-    Buckets<Wedge> wedges = wedges_by_vertex(mesh);
+    Buckets<RingEdge> wedges = wedges_by_vertex(mesh);
     const Index n = static_cast<Index>(mesh.positions.size());
     Rings rings;
     rings.kind.resize(n);

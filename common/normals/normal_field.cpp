@@ -18,7 +18,7 @@ namespace {
 /// never less than `rest` times the noise at the start (or `most`, where noise is too strong to measure).
 constexpr double wide = 3, narrowing = 0.7, rest = 0.68, most = 0.37;
 /// Reach of the weights, in mean distances between centroids of faces with a common edge.
-constexpr double reach = 1.2;
+constexpr double field_reach = 1.2;
 /// Steps after which a snapshot is taken.
 constexpr std::array<int, 5> snapshot = {3, 5, 8, 12, 20};
 /// Energy of the differences of snapshots over a plane with white noise, in units of the squared median difference of
@@ -121,7 +121,7 @@ Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, cons
     stats.left = stats.noise;
     if (!(noise > 0)) return g.normal;  // flat, or no two faces meet: there is nothing to take for noise
 
-    const std::vector<double> spatial = spatial_weights(graph, g, reach);
+    const std::vector<double> spatial = spatial_weights(graph, g, field_reach);
     std::vector<Normals> levels;
     Normals n = g.normal;
     double factor = wide * options.strength;

@@ -4,7 +4,7 @@ namespace multires {
 namespace {
 
 /// Lengths in ascending order, in deviations of the noise.
-struct Details {
+struct LevelDetails {
     std::vector<double> lengths;
     double width = 1;
 
@@ -12,19 +12,19 @@ struct Details {
 };
 
 /// Pure noise hardly ever exceeds it.
-double universal(const Details& d) {
+double universal(const LevelDetails& d) {
     return std::sqrt(d.width - 1) + std::sqrt(2 * std::log(std::max(2.0, d.count())));
 }
 
 /// True if the details are no longer than noise makes them, as far as can be told: to two deviations of their energy.
-bool nothing_but_noise(const Details& d) {
+bool nothing_but_noise(const LevelDetails& d) {
     double squares = 0;
     for (const double l : d.lengths) squares += l * l;
     const double all = d.count() * d.width;
     return squares / all - 1 <= 2 * std::sqrt(2 / all);
 }
 
-double least_soft(const Details& d, double most) {
+double least_soft(const LevelDetails& d, double most) {
     double inverse = 0;  // sum of 1 / |d| above the threshold
     for (const double l : d.lengths)
         if (l > 0) inverse += 1 / l;
@@ -40,7 +40,7 @@ double least_soft(const Details& d, double most) {
     return threshold;
 }
 
-double least_hard(const Details& d, double most) {
+double least_hard(const LevelDetails& d, double most) {
     constexpr double step = 0.1, window = 0.5;
     const auto up_to = [&](double t) {
         return static_cast<double>(std::upper_bound(d.lengths.begin(), d.lengths.end(), t) - d.lengths.begin());
@@ -60,7 +60,7 @@ double least_hard(const Details& d, double most) {
 
 double sure_threshold(std::vector<double> lengths, int width, double deviation, Shrink rule) {
     if (lengths.empty() || !(deviation > 0)) return 0;
-    Details d{std::move(lengths), static_cast<double>(width)};
+    LevelDetails d{std::move(lengths), static_cast<double>(width)};
     for (double& l : d.lengths) l /= deviation;
     const double most = universal(d);
     if (nothing_but_noise(d)) return deviation * most;

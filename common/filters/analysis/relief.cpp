@@ -17,7 +17,7 @@
 namespace multires {
 namespace {
 
-constexpr double tolerance = 1e-2;  ///< of each band: a choice needs no more
+constexpr double choice_tolerance = 1e-2;  ///< of each band: a choice needs no more
 
 /// Strokes pull a low pass with them that is not robust: that needs a longer limit to tell them from the rest.
 constexpr double robust_share = 0.8;
@@ -33,7 +33,7 @@ std::optional<double> most_skewed(const Spline& spline, const Layer& layer, cons
     if (cutoffs.empty()) return std::nullopt;
     const std::vector<double> area = vertex_areas(mesh), rim = distance_from_rim(mesh, cutoffs.back() / 2);
     std::vector<double> skewness;
-    for_each_low_pass(spline, mesh, cutoffs, tolerance, progress, [&](std::size_t b, const Positions& low) {
+    for_each_low_pass(spline, mesh, cutoffs, choice_tolerance, progress, [&](std::size_t b, const Positions& low) {
         const Array<Vec3> normal = vertex_normals(mesh.faces, low);
         const Powers sums = chunked_fold<Powers>(mesh.positions.size(), [&](Powers& p, std::size_t i) {
             if (rim[i] >= cutoffs[b] / 2) p.add(area[i], normal[i].dot(mesh.positions[i] - low[i]));

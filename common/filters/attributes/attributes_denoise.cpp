@@ -213,11 +213,11 @@ private:
 };
 
 /// The mesh as noise is measured on it.
-struct Surface {
+struct SurfaceGeometry {
     Neighbours near;
     std::vector<double> weight;
 
-    explicit Surface(const Mesh& mesh) {
+    explicit SurfaceGeometry(const Mesh& mesh) {
         const Incidence at = vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()));
         near = neighbours(mesh.faces, at);
         weight = cotangent_weights(mesh.faces, at, near, mesh.positions);
@@ -236,7 +236,7 @@ struct Surface {
     }
 };
 
-Field denoised(const Channels& channels, const Pyramid& pyramid, const NoiseGains& gains, const Surface& surface,
+Field denoised(const Channels& channels, const Pyramid& pyramid, const NoiseGains& gains, const SurfaceGeometry& surface,
                const AttributeDenoiseOptions& o, Report& report) {
     const std::vector<Group> groups = group_levels(pyramid.hierarchy(), o);
     const int width = channels.field.width, colors = width == 4 ? 3 : width;
@@ -273,7 +273,7 @@ Result denoise_attributes(const Layer& layer, const AttributeDenoiseOptions& opt
     const std::vector<double> weights = region_weights(layer, options.region);
     session.progress.report(0.9, "Measuring the noise");
     const NoiseGains gains = noise_gains(pyramid->hierarchy(), pyramid->scheme());
-    const Surface surface(layer.mesh);
+    const SurfaceGeometry surface(layer.mesh);
     for (const Channels& c : all) {
         session.progress.report(0.92, "Denoising attributes");
         const Field after = denoised(c, *pyramid, gains, surface, options, result.report);
