@@ -17,7 +17,7 @@ constexpr int noise_steps = 12;
 /// normals jump where another patch becomes the most consistent one.
 constexpr double field_push = 0.1, guided_push = 0.4;
 constexpr double normal_rounding = 1e-4;  ///< differences of normals that coordinates in single precision make
-constexpr int fit_steps = 8;       ///< more would follow the normals further and lose volume
+constexpr int fit_steps = 8;              ///< more would follow the normals further and lose volume
 
 void add_scaled(std::vector<double>& to, double factor, const std::vector<double>& from) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * from[i];

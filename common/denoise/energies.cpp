@@ -10,7 +10,7 @@
 namespace multires {
 namespace {
 
-constexpr int energy_steps = 6;    ///< averaging that makes an energy local
+constexpr int energy_steps = 6;   ///< averaging that makes an energy local
 constexpr int smooth_steps = 20;  ///< more of it for what white noise leaves: a property of the mesh alone
 constexpr std::size_t bins = 10;
 

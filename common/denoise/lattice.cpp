@@ -10,7 +10,7 @@ namespace multires {
 namespace {
 
 constexpr double coordinate_rounding = 1e-6;  ///< of the largest coordinate: single precision, with a margin
-constexpr double off = 0.05;       ///< how far a coordinate may be from the lattice, in steps
+constexpr double off = 0.05;                  ///< how far a coordinate may be from the lattice, in steps
 
 /// The different values of a coordinate, ascending.
 std::vector<double> levels(const Positions& p, int axis, double tolerance) {

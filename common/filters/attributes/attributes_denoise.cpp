@@ -236,8 +236,8 @@ struct SurfaceGeometry {
     }
 };
 
-Field denoised(const Channels& channels, const Pyramid& pyramid, const NoiseGains& gains, const SurfaceGeometry& surface,
-               const AttributeDenoiseOptions& o, Report& report) {
+Field denoised(const Channels& channels, const Pyramid& pyramid, const NoiseGains& gains,
+               const SurfaceGeometry& surface, const AttributeDenoiseOptions& o, Report& report) {
     const std::vector<Group> groups = group_levels(pyramid.hierarchy(), o);
     const int width = channels.field.width, colors = width == 4 ? 3 : width;
     const double rounding = width == 4 ? 0.5 : 0;  // colours are whole numbers before and after
