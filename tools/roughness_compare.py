@@ -59,7 +59,9 @@ def by_surfalize(waves, filters):
     x, y = np.meshgrid(np.linspace(0, 1, N), np.linspace(0, 1, N), indexing="xy")
     surface = Surface(waves(x, y), 1 / (N - 1), 1 / (N - 1)).level()
     if filters:
-        surface = surface.filter("lowpass", filters[0]).filter("highpass", filters[1])
+        # Mirrored about the points of the rim, where the mesh ends. Its default "reflect" mirrors half a step farther out.
+        surface = surface.filter("lowpass", filters[0], endeffect_mode="mirror")
+        surface = surface.filter("highpass", filters[1], endeffect_mode="mirror")
     return {name: getattr(surface, name)() for name in NAMES}
 
 
