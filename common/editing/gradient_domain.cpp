@@ -114,6 +114,7 @@ Positions gradient_domain(const Mesh& fine, Motion& motion, const GradientDomain
     GradientsOptions how;
     how.tolerance = 1e-6;
     how.most_steps = 100;
+    GradientsMemory<double> memory;
     conjugate_gradients<3, false, double>(
         r.values, how, [&](const Array<double>& p, Array<double>& q) { solver.apply(p, q); },
         [&](const Array<double>& from, Array<double>& to) { solver.precondition(from, to); },
@@ -123,7 +124,7 @@ Positions gradient_domain(const Mesh& fine, Motion& motion, const GradientDomain
             u[i] += step;
             return step.squaredNorm();
         },
-        [&](int step, double) { progress.report(0.6 + 0.4 * step / (step + 15.0), "Solving"); });
+        [&](int step, double) { progress.report(0.6 + 0.4 * step / (step + 15.0), "Solving"); }, memory);
     return u;
 }
 

@@ -31,6 +31,14 @@ struct GradientsResult {
     bool converged = true;
 };
 
+/// What conjugate_gradients() works in: two vectors of doubles and one of Number, as large as r. Given again it saves
+/// the system the clearing of its pages, a tenth of a solve.
+template <class Number>
+struct GradientsMemory {
+    Array<double> p, q;
+    Array<Number> z;
+};
+
 namespace gradients_detail {
 
 /// One number a channel.
@@ -94,10 +102,12 @@ Scalar ratio(const Scalar& a, const Scalar& b) {
 /// @param add           add(i, change): row i of the solution += L (2 L) numbers; returns the square of the change
 /// @param r             the first residual; the last one afterwards
 /// @param tick          tick(step, residual) once a step; may throw
-/// Memory: two vectors of doubles and one of Number, beside r. Same bits for any number of threads.
+/// @param memory        of any size and content
+/// Same bits for any number of threads.
 template <int L, bool Z, class Number, class Apply, class Precondition, class Add, class Tick>
 GradientsResult conjugate_gradients(Array<double>& r, const GradientsOptions& options, const Apply& apply,
-                                    const Precondition& precondition, const Add& add, const Tick& tick) {
+                                    const Precondition& precondition, const Add& add, const Tick& tick,
+                                    GradientsMemory<Number>& memory) {
     using Scalar = std::conditional_t<Z, std::complex<double>, double>;
     using Dots = gradients_detail::Sums<L, Scalar>;
     using Norms = gradients_detail::Norms<L>;
@@ -124,8 +134,9 @@ GradientsResult conjugate_gradients(Array<double>& r, const GradientsOptions& op
     });
     if (options.together) first.residual.join();
     GradientsResult result;
-    Array<double> p(r.size()), q(r.size());
-    Array<Number> z(r.size());
+    Array<double>&p = memory.p, &q = memory.q;
+    Array<Number>& z = memory.z;
+    p.resize(r.size()), q.resize(r.size()), z.resize(r.size());
     Dots rz;
     const auto worst = [&](const Norms& now) {
         double most = 0;

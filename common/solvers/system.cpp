@@ -95,12 +95,14 @@ GradientsResult correct_group(const Family& family, const Array<double>& residua
                               const Progress& progress) {
     constexpr int stride = Z ? 2 * L : L;
     const Index n = family.matrices.rows();
-    Array<double> r(static_cast<std::size_t>(n) * stride, 0);
+    SolveMemory own, &memory = options.memory ? *options.memory : own;
+    Array<double>& r = memory.residual;
+    r.resize(static_cast<std::size_t>(n) * stride);
     parallel_for(n, [&](Index i) {
-        if (!family.active[i]) return;
         const double* const from = residual.data() + static_cast<std::size_t>(i) * x.width + group.first;
         double* const to = r.data() + static_cast<std::size_t>(i) * stride;
-        for (int c = 0; c < group.count; ++c) to[c] = from[c] / group.scale[c];
+        std::fill(to, to + stride, 0.0);
+        for (int c = 0; c < group.count && family.active[i]; ++c) to[c] = from[c] / group.scale[c];
     });
     VCycle<L, Z> cycle(family.grid, family.preconditioner);
     const std::complex<double> z = family.scaled.mass * family.mass_scale;
@@ -130,7 +132,8 @@ GradientsResult correct_group(const Family& family, const Array<double>& residua
         [&](int, double left) {
             const double done = std::log(std::max(left, 1e-300)) / std::log(std::max(options.tolerance, 1e-6));
             progress.report(std::clamp(done, 0.0, 1.0), "Solving");
-        });
+        },
+        memory.gradients);
 }
 
 /// The largest value of each channel at active rows, 1 for those that are 0.
@@ -311,14 +314,21 @@ Solved System::rational(const std::vector<Term>& terms, double s, ConstRows f, R
     require_shape(f, matrices_, f.width);
     require_shape(ConstRows(out), matrices_, f.width);
     require_finite(f, "The signal");
-    Array<double> bent(static_cast<std::size_t>(f.rows) * f.width);  // C f: what each term changes comes from it
+    SolveMemory own, &memory = options.memory ? *options.memory : own;
+    Array<double>& bent = memory.right;  // C f: what each term changes comes from it
+    bent.resize(static_cast<std::size_t>(f.rows) * f.width);
     apply_stiffness(matrices_, f.values, f.width, bent.data());
-    for (std::size_t i = 0; i < bent.size(); ++i) out.values[i] = constant * f.values[i];
+    parallel_for(f.rows, [&](Index i) {
+        for (std::size_t k = static_cast<std::size_t>(i) * f.width, c = 0; c < static_cast<std::size_t>(f.width); ++c)
+            out.values[k + c] = constant * f.values[k + c];
+    });
+    SolveOptions how = options;
+    how.memory = &memory;
     Solved solved;
     for (std::size_t j = 0; j < terms.size(); ++j) {
         const double begin = static_cast<double>(j) / static_cast<double>(terms.size());
         const double end = static_cast<double>(j + 1) / static_cast<double>(terms.size());
-        const Solved one = correct({terms[j].pole, s}, -s * terms[j].weight / terms[j].pole, false, bent, out, options,
+        const Solved one = correct({terms[j].pole, s}, -s * terms[j].weight / terms[j].pole, false, bent, out, how,
                                    progress.part(begin, end));
         solved.steps = std::max(solved.steps, one.steps);
         solved.residual = std::max(solved.residual, one.residual);

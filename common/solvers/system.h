@@ -46,12 +46,20 @@ struct SystemOptions {
     bool bending = false;
 };
 
+/// What a solve works in beside the V-cycle, for those that solve again and again: 120 bytes a vertex, up to 220 if
+/// complex. Of any content; used by one solve at a time.
+struct SolveMemory {
+    Array<double> right, residual;
+    GradientsMemory<float> gradients;
+};
+
 struct SolveOptions {
     double tolerance =
         1e-8;  ///< of |residual| / |residual of the first guess|, every channel or all together, in (0, 1)
     int most_steps = 1000;
-    bool together = false;  ///< GradientsOptions::together, of up to four channels each
-    double enough = 0;      ///< GradientsOptions::enough: root of the mean square of a step's change of x
+    bool together = false;          ///< GradientsOptions::together, of up to four channels each
+    double enough = 0;              ///< GradientsOptions::enough: root of the mean square of a step's change of x
+    SolveMemory* memory = nullptr;  ///< null: memory of its own
 };
 
 /// One term of a rational filter.

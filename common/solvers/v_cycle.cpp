@@ -38,7 +38,10 @@ struct RowOf {
     [[gnu::always_inline]] static void set(float* v, Index i, const Type& value) {
         Eigen::Map<Type>(v + static_cast<std::size_t>(i) * stride) = value;
     }
+    using Factor = std::conditional_t<Z, std::complex<float>, float>;
+
     /// factor x value
+    [[gnu::always_inline]] static Type times(float factor, const Type& value) { return factor * value; }
     [[gnu::always_inline]] static Type times(const std::complex<float>& factor, const Type& value) {
         if constexpr (Z) {
             Type out;
@@ -150,8 +153,8 @@ struct VCycle<L, Z>::Work {
     using Type = typename Row::Type;
 
     struct Vectors {
-        Array<std::complex<float>> inverse;  // of Jacobi's D; 0: the row takes no part
-        Array<float> b, x, y;                // x and b of the finest level are the caller's
+        Array<typename Row::Factor> inverse;  // of Jacobi's D; 0: the row takes no part
+        Array<float> b, x, y;                 // x and b of the finest level are the caller's
         double largest = 2;
     };
 
@@ -162,7 +165,7 @@ struct VCycle<L, Z>::Work {
             const Level& level = grid[l];
             at[l].inverse.resize(level.rows);
             parallel_for(level.rows, [&](Index i) {
-                const std::complex<float> d = z * level.mass_jacobi[i] + s * level.stiffness_jacobi[i];
+                const typename Row::Factor d = mass() * level.mass_jacobi[i] + s * level.stiffness_jacobi[i];
                 at[l].inverse[i] = d == 0.0F ? 0.0F : 1.0F / d;
             });
             at[l].largest = std::max(level.largest_mass, level.largest_stiffness);
@@ -232,6 +235,11 @@ struct VCycle<L, Z>::Work {
             const Type now = Row::get(y, i);
             Row::set(x, i, now + step.keep * (now - Row::get(x, i)) + correction(l, i, step.second, b, y));
         });
+    }
+
+    typename Row::Factor mass() const {
+        if constexpr (Z) return z;
+        if constexpr (!Z) return z.real();
     }
 
     const std::vector<Level>& grid;

@@ -25,7 +25,9 @@ void for_each_low_pass(const Spline& spline, const Mesh& mesh, const std::vector
     const Chain chain(cutoffs);
     const System& system = spline.solver();
     Positions low = mesh.positions, next(low.size());
+    SolveMemory memory;
     SolveOptions options;
+    options.memory = &memory;
     options.tolerance = tolerance;
     options.together = true;  // so that a turned mesh gives the same, turned
     for (std::size_t b = 0; b < cutoffs.size(); ++b) {

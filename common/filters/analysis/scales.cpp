@@ -83,10 +83,10 @@ Result scale_details(const Layer& layer, const ScaleOptions& options, Session& s
     Positions before = mesh.positions;
     const auto take = [&](std::size_t b, const Positions& low) {
         const Array<Vec3> normal = vertex_normals(mesh.faces, low);
-        std::vector<double> detail(n), height(n);
+        std::vector<double> detail(n), height(options.values == ScaleValues::heights ? n : 0);
         parallel_for(static_cast<Index>(n), [&](Index i) {
             detail[i] = normal[i].dot(before[i] - low[i]);
-            height[i] = normal[i].dot(mesh.positions[i] - low[i]);
+            if (!height.empty()) height[i] = normal[i].dot(mesh.positions[i] - low[i]);
         });
         rms.push_back(rms_by_area(detail, area));
         strongest.take(static_cast<int>(b), detail, rms.back());

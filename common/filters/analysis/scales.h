@@ -32,7 +32,7 @@ struct ScaleOptions {
 /// each: measured, no band is off by more than 0.5 % of its RMS, and the whole takes a third of the time of
 /// exact ones.
 /// @throws InputError  naming the parameter; see require_usable
-/// Cost: a million vertices with 16 bands 11 s of processor time, set-up included, and 8 bytes a vertex and band.
+/// Cost: a million vertices with 16 bands 8.9 s of processor time, set-up included, and 8 bytes a vertex and band.
 Result scale_details(const Layer& layer, const ScaleOptions& options, Session& session);
 
 /// The limits of the bands: finest, ..., coarsest, or coarsest alone for one band.

@@ -116,6 +116,7 @@ public:
         GradientsOptions options;
         options.tolerance = 1e-4;
         options.most_steps = steps;
+        GradientsMemory<double> memory;
         // One system for all coordinates, which normals tie together: a channel of 3 #V rows.
         conjugate_gradients<1, false, double>(
             r, options, [&](const Array<double>& p, Array<double>& q) { apply(p, q); },
@@ -126,7 +127,7 @@ public:
                 x[i / 3][i % 3] += *change;
                 return *change * *change;
             },
-            [](int, double) {});
+            [](int, double) {}, memory);
         return x;
     }
 
