@@ -21,10 +21,14 @@ import numpy as np
 import pymeshlab
 
 import report
+from features_compare import creases
 from measuring import (BUILD, BUNNY, DENOISE, EQUALIZER_GAINS, PYRAMID, SMOOTHERS, UNSHARP_MASKS, Setting, document,
                        edge_length, load_plugins, measures, read, referenced, run, same_faces, shape,
                        signed_distance, tangential, with_noise)  # fmt: skip
 from transmission import FORMULAS, harmonic, irregular_sphere
+
+ROUGHNESS, TEXTURE = "compute_multires_roughness", ("sa", "sq", "sp", "sv", "sz", "ssk", "sku", "sdq", "sdr")
+CREASE = 30  # degrees
 
 # Ours: title, setting, what to say of the setting where it is not the defaults.
 OUR_SMOOTHERS = (
@@ -188,6 +192,65 @@ def transmissions():
     yield "Formula", None, fine.tolist(), FORMULAS["2"]((10 / fine) ** 2).tolist()
 
 
+@dataclasses.dataclass
+class Reading:
+    """What a filter says of the vertices of a mesh, and in which colours to show it: from `least` to `most`, the
+    finite values; those that are not are left white."""
+
+    title: str
+    ours: bool
+    words: str
+    values: np.ndarray
+    colors: str
+    least: float
+    most: float
+
+
+def readings(case):
+    """Filters that measure or select, ours and MeshLab's for the purpose, on a mesh, with their defaults."""
+    print("  readings", file=sys.stderr)
+    v, f = case.vertices, case.faces
+
+    def quality(name, **parameters):
+        ms = document(v, f)
+        ms.apply_filter(name, **parameters)
+        return ms.current_mesh().vertex_scalar_array()
+
+    def selected():
+        ms = document(v, f)
+        ms.apply_filter("compute_selection_multires_features", select="vertices")
+        return ms.current_mesh().vertex_selection_array()
+
+    def spread(values):
+        return [float(q) for q in np.quantile(values, (0.03, 0.97))]
+
+    def marked(on):
+        return np.where(on, 1.0, np.nan), "Reds", 0.0, 1.3
+
+    relief = quality("compute_scalar_multires_relief_per_vertex")
+    most = float(np.quantile(np.abs(relief), 0.97)) or 1e-9
+    yield Reading("Relief", True, "height over the low pass", relief, "RdBu_r", -most, most)
+    dark = quality("compute_scalar_ambient_occlusion")
+    yield Reading("Ambient occlusion", False, "no unit", dark, "gray", *spread(dark))
+    scale = np.log(quality("compute_custom_multires_scales"))
+    yield Reading("Details by scale", True, "wavelength of the strongest band", scale, "viridis", *spread(scale))
+    bent = quality("compute_scalar_by_discrete_curvature_per_vertex")
+    yield Reading("Discrete mean curvature", False, "per length", bent, "viridis", *spread(bent))
+    yield Reading("Select Features", True, "lines over scales", *marked(selected()))
+    yield Reading("Creases", False, f"edges bent by {CREASE} degrees", *marked(creases(v, f, CREASE)))
+
+
+def textures(case, outcomes):
+    """ISO 25178 parameters of results, over the low pass at 10 mean edges: outcome, name -> number; lengths in edges."""
+    print("  roughness", file=sys.stderr)
+    limit, rows = 10 * case.edge, []
+    for o in outcomes:
+        found = document(o.vertices, o.faces).apply_filter(ROUGHNESS, form="low pass", l_filter=limit)
+        units = dict.fromkeys(("sa", "sq", "sp", "sv", "sz"), case.edge)
+        rows.append((o, {k: found[k] / units.get(k, 1) for k in TEXTURE}))
+    return rows
+
+
 def compare(case, repeats):
     """(input and truth, smoothers, the original mesh, filters of bands): lists of outcomes."""
     inputs = [describe(case, "Noisy input" if case.truth_known else "Input", case.vertices, case.faces)]
@@ -238,10 +301,12 @@ def main():
             sys.exit(f"{arguments.mesh}: a mesh with faces is needed")
         results = compare(case, arguments.repeats)
         curves = list(transmissions())
+        read_off = list(readings(case.original()))
+        rough = textures(case, [*results[0], *results[1]])
     except pymeshlab.PyMeshLabException as error:
         sys.exit(f"{arguments.mesh}: {error}")
     print("  pictures", file=sys.stderr)
-    page = report.page(case, *results, curves, up=arguments.up, tile=arguments.tile)
+    page = report.page(case, *results, curves, read_off, rough, up=arguments.up, tile=arguments.tile)
     arguments.output.mkdir(parents=True, exist_ok=True)
     path = arguments.output / "comparison.html"
     path.write_text(page, encoding="utf-8")

@@ -98,6 +98,12 @@ class Views:
         colors = rendering.coloured(outcome.error, -self.most_error, self.most_error, ERROR_COLORS)
         return self._cropped(self._render(outcome, self.camera, colors))
 
+    def reading(self, outcome, reading):
+        known = np.isfinite(reading.values)
+        values = np.where(known, reading.values, reading.least)
+        colors = rendering.coloured(values, reading.least, reading.most, reading.colors)
+        return self._cropped(self._render(outcome, self.camera, np.where(known[:, None], colors, 1.0)))
+
     def moved(self, outcome):
         colors = rendering.coloured(outcome.moved, 0, self.most_moved, MOVED_COLORS)
         return self._cropped(self._render(outcome, self.camera, colors))
@@ -139,18 +145,20 @@ def first_screen(case, smoothers):
     return ours, min(theirs, key=lambda o: abs(math.log(max(o.figures["moved"], 1e-9) / moved)))
 
 
-def as_json(case, groups, curves):
+def as_json(case, groups, curves, textures):
     """All figures, for programs."""
     rows = [{"title": o.title, "whose": kind(o), "parameters": o.words, "task": task, "tried": o.tried,
              **{k: float(v) if finite(v) else None for k, v in o.figures.items()}}
             for task, outcomes in groups.items() for o in outcomes]  # fmt: skip
     data = {"mesh": case.name, "noise": case.noise, "truth_known": case.truth_known, "edge_length": case.edge,
-            "rows": rows, "transmission": {title: [waves, shares] for title, _, waves, shares in curves}}  # fmt: skip
+            "rows": rows, "transmission": {title: [waves, shares] for title, _, waves, shares in curves},
+            "roughness": {o.title: {k: float(n) for k, n in t.items()} for o, t in textures}}  # fmt: skip
     return Markup(json.dumps(data).replace("</", "<\\/"))
 
 
-def page(case, inputs, smoothers, original, bands, curves, up=None, tile=440):
-    """The whole page. The first four lists are what compare() returns, the curves those of transmissions()."""
+def page(case, inputs, smoothers, original, bands, curves, readings, textures, up=None, tile=440):
+    """The whole page. The first four lists are what compare() returns, the others what transmissions(), readings() and
+    textures() do."""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True,
                                      undefined=jinja2.StrictUndefined)  # fmt: skip
     environment.filters |= {"number": number, "finite": finite, "degrees": degrees, "kind": kind}
@@ -165,8 +173,8 @@ def page(case, inputs, smoothers, original, bands, curves, up=None, tile=440):
         views=Views(inputs[-1], smoothers, inputs[:-1], up, tile),  # from the truth if there is one
         band_views=Views(original[0], bands, [], up, tile),
         most_share=max(charts.share(o.shapes).max() for o in [*smoothers, inputs[0]]),
-        figures=as_json(case, {"input": inputs, "smooth": smoothers, "band": [*original, *bands]}, curves),
-        curves=curves,
+        figures=as_json(case, {"input": inputs, "smooth": smoothers, "band": [*original, *bands]}, curves, textures),
+        curves=curves, readings=readings, textures=textures,
         style=Markup((HERE / "report.css").read_text()),
         pymeshlab_version=importlib.metadata.version("pymeshlab"),
         machine=f"{os.cpu_count()} cores, {platform.machine()}",

@@ -97,6 +97,19 @@ def test_the_page_is_self_contained_and_says_what_pictures_show(page, path):
     assert not re.search(r"url\(|@import|https?://", path.read_text().split('<script type="application/json"')[0])
 
 
+def test_readings_and_roughness_are_in_the_page(page):
+    alts = {a["alt"] for tag, a in page.elements if tag == "img"}
+    for title in ("multires: Relief", "multires: Details by scale", "multires: Select Features",
+                  "MeshLab: Ambient occlusion", "MeshLab: Discrete mean curvature", "MeshLab: Creases"):  # fmt: skip
+        assert f"{title} in colour" in alts
+    rough = page.figures["roughness"]
+    assert set(rough) == {row["title"] for task in ("input", "smooth") for row in page.rows(task).values()}
+    # Noise of 0.3 edges is taken for texture, and Denoise brings it nearer to the truth's.
+    sq = {title: numbers["sq"] for title, numbers in rough.items()}
+    assert sq["Noisy input"] > 0.2
+    assert abs(sq["Denoise"] - sq["Truth"]) < 0.5 * abs(sq["Noisy input"] - sq["Truth"])
+
+
 def test_the_tuning_is_told(page):
     said = " ".join(page.words)
     assert "best of a grid" in said
