@@ -15,7 +15,7 @@ namespace multires {
 namespace {
 
 constexpr double low_enough = 0.05;  ///< drift that is left alone, of the RMS way along the normals
-constexpr double small_way = 0.03;   ///< what a vertex may be off its normal, of the same
+constexpr double small_way = 0.1;    ///< what a vertex may be off its normal in the result, of the same
 constexpr double least_cosine = 0.5;
 constexpr double least_gain = 1e-3;  ///< of the sum
 constexpr int most_rounds = 15;
@@ -96,15 +96,14 @@ private:
 };
 
 class Slide {
+    using Place = Ground::Place;
+
 public:
     Slide(const Mesh& mesh, const Stiffness& neighbours, const Positions& smooth, Positions& moved)
         : mesh_(mesh), near_(neighbours), moved_(moved),
           incident_(vertex_faces(mesh.faces, static_cast<Index>(moved.size()))), ground_(mesh.faces, smooth, incident_),
           place_(moved.size()), area_(moved.size(), 0), counts_(moved.size()) {
-        parallel_for(static_cast<Index>(moved.size()), [&](Index i) {
-            place_[i] = ground_.at(moved[i], i);
-            counts_[i] = simple(i);
-        });
+        parallel_for(static_cast<Index>(moved.size()), [&](Index i) { counts_[i] = simple(i); });
         for (const Face& f : mesh.faces) {
             const double area = area_vector(f, moved).norm();
             for (const Index v : f) area_[v] += area;
@@ -144,32 +143,38 @@ private:
 
     /// One vertex, by the whole way back, half of it, or a fifth.
     bool step(Index v, double small) {
-        if (!counts_[v] || place_[v].normal.isZero()) return false;
-        const Vec3 way = moved_[v] - mesh_.positions[v], normal = mean_normal(v);
+        if (!counts_[v]) return false;
+        const Vec3 way = moved_[v] - mesh_.positions[v], own = normal_of(v);
+        if ((way - own.dot(way) * own).squaredNorm() <= small * small || place(v).normal.isZero()) return false;
+        const Vec3 sum = own + place(v).normal, normal = sum.squaredNorm() > 0.01 ? unit(sum) : place(v).normal;
         const Vec3 along = way - normal.dot(way) * normal;
-        if (!(along.squaredNorm() > small * small)) return false;
         const Vec3 from = moved_[v];
-        const Place place = place_[v];
+        const Place before_it = place_[v];
         cosine_.clear();
         for (const Index f : incident_[v]) cosine_.push_back(cosine(f));
         const double before = cost_around(v);
         for (const double share : {1.0, 0.5, 0.2}) {
             moved_[v] = from - share * along;
-            place_[v] = ground_.at(moved_[v], place.vertex);
+            place_[v] = ground_.at(moved_[v], before_it.vertex);
             if (faces_lie(v) && cost_around(v) < (1 - least_gain) * before) return true;
         }
-        moved_[v] = from, place_[v] = place;
+        moved_[v] = from, place_[v] = before_it;
         return false;
     }
 
-    bool faces_lie(Index v) const {
+    /// Found when it is first asked for: most vertices lie well and far from those that do not.
+    const Place& place(Index v) {
+        if (place_[v].vertex < 0) place_[v] = ground_.at(moved_[v], v);
+        return place_[v];
+    }
+    bool faces_lie(Index v) {
         const auto faces = incident_[v];
         for (Index k = 0; k < faces.size(); ++k)
             if (const double c = cosine(faces[k]); c < least_cosine && c < cosine_[k] - 1e-9) return false;
         return true;
     }
-    Vec3 ground_of(const Face& f) const { return place_[f[0]].normal + place_[f[1]].normal + place_[f[2]].normal; }
-    double cosine(Index i) const {
+    Vec3 ground_of(const Face& f) { return place(f[0]).normal + place(f[1]).normal + place(f[2]).normal; }
+    double cosine(Index i) {
         const Vec3 a = area_vector(mesh_.faces[i], moved_), b = ground_of(mesh_.faces[i]);
         const double lengths = a.norm() * b.norm();
         return lengths > 0 ? a.dot(b) / lengths : -2;
@@ -179,24 +184,18 @@ private:
         for (const Index i : incident_[v]) sum += area_vector(mesh_.faces[i], moved_);
         return unit(sum);
     }
-    Vec3 mean_normal(Index v) const {
-        const Vec3 sum = normal_of(v) + place_[v].normal;
-        return sum.squaredNorm() > 0.01 ? unit(sum) : place_[v].normal;
-    }
-
-    double cost(Index v) const {
+    double cost(Index v) {
         if (!counts_[v]) return 0;
         const Vec3 way = moved_[v] - mesh_.positions[v];
-        const double a = normal_of(v).dot(way), b = place_[v].normal.dot(way);
+        const double a = normal_of(v).dot(way), b = place(v).normal.dot(way);
         return area_[v] * (2 * way.squaredNorm() - a * a - b * b);
     }
-    double cost_around(Index v) const {
+    double cost_around(Index v) {
         double sum = cost(v);
         for (Index k = near_.offset[v]; k < near_.offset[v + 1]; ++k) sum += cost(near_.column[k]);
         return sum;
     }
 
-    using Place = Ground::Place;
     const Mesh& mesh_;
     const Stiffness& near_;
     Positions& moved_;

@@ -16,7 +16,7 @@ namespace multires {
 /// @param neighbours  of the mesh: offset and column
 /// @param smooth      #V by 3, the low-passed surface
 /// @param moved       #V by 3, near it
-/// Cost: linear, 0.2 s for 100,000 vertices at most; next to nothing where drift() is below 0.05 already.
+/// Cost: linear, up to 0.3 s of one core for 100,000 vertices; next to nothing where drift() is below 0.05 already.
 void slide_back(const Mesh& mesh, const Stiffness& neighbours, const Positions& smooth, Positions& moved);
 
 }  // namespace multires

@@ -49,7 +49,7 @@ TEST(Slide, VerticesComeToLieOnTheNormalsThroughWhereTheyWere) {
     EXPECT_GT(before, 0.04);
     EXPECT_LT(after, 0.006);  // tangents, not arcs: 0.045^2 / (2 0.3) = 0.0034
     const Drift d = drift(slid.mesh.faces, slid.mesh.positions, moved);
-    EXPECT_LT(d.tangential_rms, 0.05 * d.normal_rms);
+    EXPECT_LT(d.tangential_rms, 0.1 * d.normal_rms);  // 0.3 before; below 0.1 a vertex is left alone
 }
 
 TEST(Slide, NormalsThatCancelTakeNothingOfTheWay) {
