@@ -47,7 +47,8 @@ TEST(Slide, VerticesComeToLieOnTheNormalsThroughWhereTheyWere) {
         after = std::max(after, (moved[i] - slid.feet[i]).norm());
     }
     EXPECT_GT(before, 0.04);
-    EXPECT_LT(after, 0.006);  // tangents, not arcs: 0.045^2 / (2 0.3) = 0.0034
+    // A tenth of the way inwards is left alone, and tangents are no arcs: 0.01 + 0.045^2 / (2 0.3).
+    EXPECT_LT(after, 0.0135);
     const Drift d = drift(slid.mesh.faces, slid.mesh.positions, moved);
     EXPECT_LT(d.tangential_rms, 0.1 * d.normal_rms);  // 0.3 before; below 0.1 a vertex is left alone
 }
