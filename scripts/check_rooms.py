@@ -21,11 +21,13 @@ COMMON = {
     "pyramid": ["base", "mesh", *FLOOR, "solvers", "schemes"],
     "denoise": ["base", "mesh", *FLOOR],
     "grids": ["base", "mesh"],
+    "stream": ["base", "mesh", "measure", "hierarchy"],
     "filters": ["base", "mesh", *FLOOR, "solvers", "bands", "schemes", "pyramid", "denoise", "editing", "grids"],
 }
 PLUGINS = {
     "shared": list(COMMON),
     "host": ["shared", *COMMON],
+    "io_multires": list(COMMON),  # the decoder as C functions
     "filter": ["shared", *COMMON],  # plugins/filter_*: one table each, which know neither each other nor the host
 }
 KINDS = ["shape", "attributes", "layers", "editing", "analysis", "grid"]  # of filters: rooms of their own below common/filters/

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/.."
 what=${1:-all}
 
 packages=(build-essential ca-certificates ccache cmake ninja-build
-    libeigen3-dev libxxhash-dev libglew-dev libgtest-dev libbenchmark-dev qtbase5-dev libqt5opengl5-dev
+    libeigen3-dev libxxhash-dev libzstd-dev libglew-dev libgtest-dev libbenchmark-dev qtbase5-dev libqt5opengl5-dev
     python3 python3-venv dpkg-dev debian-archive-keyring xz-utils
     libegl1 libgl1 libgl1-mesa-dri libglu1-mesa libopengl0 libxrender1 xvfb xauth)
 if [ "$what" = all ]; then

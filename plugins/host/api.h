@@ -24,6 +24,7 @@ using RichVector = RichPoint3f;  ///< a direction
 
 inline void update_box_and_normals(MeshModel& model) { model.UpdateBoxAndNormals(); }
 inline void delete_layer(MeshDocument& document, MeshModel& model) { document.delMesh(&model); }
+inline void enable_for_file(MeshModel& model, int mask) { model.Enable(mask); }
 
 template <class Visit>
 void for_each_mesh(const MeshDocument& document, const Visit& visit) {
@@ -69,6 +70,7 @@ using RichVector = RichDirection;  ///< a direction
 
 inline void update_box_and_normals(MeshModel& model) { model.updateBoxAndNormals(); }
 inline void delete_layer(MeshDocument& document, MeshModel& model) { document.delMesh(model.id()); }
+inline void enable_for_file(MeshModel& model, int mask) { model.enable(mask); }
 
 template <class Visit>
 void for_each_mesh(const MeshDocument& document, const Visit& visit) {

@@ -22,7 +22,7 @@ std::vector<QPluginLoader*>& loaders() {
 std::vector<Action> load() {
     std::vector<Action> all;
     const QDir folder(MULTIRES_PLUGINS);
-    for (const QString& file : folder.entryList({"*.so"}, QDir::Files, QDir::Name)) {
+    for (const QString& file : folder.entryList({"*filter_multires*.so"}, QDir::Files, QDir::Name)) {
         auto* loader = new QPluginLoader(folder.filePath(file));
         loaders().push_back(loader);
         auto* plugin = qobject_cast<FilterPlugin*>(loader->instance());

@@ -17,7 +17,10 @@ from ._equalize import EqualizeReport, equalize
 from ._filters import *  # noqa: F403
 from ._filters import __all__ as _names
 from ._plot import plot_roughness, plot_spectrum
+from ._stream import Stream, StreamError, StreamMesh, open_stream, save_stream
+from ._stream_page import stream_page
 
-__all__ = [*_names, "EqualizeReport", "equalize", "plot_roughness", "plot_spectrum"]
+__all__ = [*_names, "EqualizeReport", "Stream", "StreamError", "StreamMesh", "equalize", "open_stream",
+           "plot_roughness", "plot_spectrum", "save_stream", "stream_page"]  # fmt: skip
 
 _call.load_plugins()

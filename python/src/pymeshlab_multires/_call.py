@@ -45,7 +45,7 @@ def load_plugins() -> None:
     check_pymeshlab()
     import pymeshlab  # type: ignore[import-untyped, unused-ignore]
 
-    found = (pathlib.Path(__file__).parent / "plugins").glob("*filter_multires_*")
+    found = (pathlib.Path(__file__).parent / "plugins").glob("*_multires*")
     plugins = sorted(file for file in found if file.suffix in (".so", ".dylib", ".dll"))
     if not plugins:
         raise ImportError(f"{__package__} was installed without its plugins")

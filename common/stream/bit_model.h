@@ -1,0 +1,47 @@
+#pragma once
+
+#include "stream/bit_coder.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace multires::stream {
+
+/// e^x for |x| <= 30 or so, from basic operations alone: the same on all machines, to 1e-9.
+double exponential(double x);
+
+/// log2 x of x > 0, from basic operations alone, to 1e-7.
+double logarithm(double x);
+
+/// floor(per_octave log2 x) for per_octave 1, 2 or 3, from basic operations alone; far down for x <= 0.
+int octave_steps(double x, int per_octave);
+
+/// A bit predicted by several contexts at once: each keeps an adaptive probability, and a logistic mixture whose
+/// weights learn from every bit weighs them (Mahoney 2005, "Adaptive weighing of context models for lossless data
+/// compression").
+template <int contexts>
+class BitModel {
+public:
+    /// @param sizes  how many values each context has
+    /// @param sets   how many sets of weights there are to choose from
+    BitModel(const std::array<int, contexts>& sizes, int sets, double rate = 0.006);
+
+    /// Codes a bit with a BitCoder.
+    /// @param context  a value of each context, 0 to its size - 1
+    /// @param set      the weights to use
+    bool code(BitCoder& coder, bool bit, const std::array<int, contexts>& context, int set);
+
+private:
+    struct Slot {
+        float one = 0.5F;  ///< probability of a 1
+        float count = 0;   ///< bits seen, up to a limit
+    };
+    using Weights = std::array<double, contexts + 1>;
+
+    std::array<std::vector<Slot>, contexts> slots_;
+    std::vector<Weights> weights_;
+    double rate_;
+};
+
+}  // namespace multires::stream

@@ -1,0 +1,63 @@
+#pragma once
+
+#include "stream/bit_model.h"
+#include "stream/star_mesh.h"
+
+#include <array>
+#include <vector>
+
+namespace multires::stream {
+
+/// A star and what can be told from its shape about the fans in it. Stars are taken once and used for all questions.
+struct StarShape {
+    Star star;
+    std::vector<std::uint8_t> taken;   ///< #faces: belongs to a vertex that was split off in this batch
+    std::vector<Index> valence;        ///< #spokes: of the spokes' vertices
+    std::vector<double> area, length;  ///< of faces and spokes
+    std::vector<double> cotangent;     ///< #spokes: sum of those of the opposite angles; negative: not Delaunay
+    std::vector<double> bend;          ///< #spokes: 1 - cos of the angle between the two faces' normals
+    std::vector<double> area_to;       ///< #faces+1: sums of areas
+    std::vector<Vec3> normal;          ///< #faces
+    double total = 0;                  ///< area
+
+    void take(const StarMesh& mesh, const Positions& positions, Index u, const std::vector<Index>& batch_of,
+              Index batch);
+};
+
+/// Which fan of a star is split off: all fans are ranked by a log-linear model over what makes one likely, learned
+/// on the way, and the rank is coded.
+class FanModel {
+public:
+    FanModel();
+
+    /// Ranks the fans of a star.
+    void rank(const StarShape& shape);
+    /// ln of the sum of the fans' weights; there must be one.
+    double evidence() const { return evidence_; }
+    bool empty() const { return candidates_.empty(); }
+
+    /// Codes which, after rank(), and learns.
+    /// @throws InputError  if what is read is no fan
+    Fan code(BitCoder& coder, const StarShape& shape, const Fan& fan);
+
+private:
+    static constexpr int most_faces = 6, features = 8;
+    struct Candidate {
+        Fan fan;
+        std::array<int, features> weight;  ///< places in weights_
+        double score = 0, share = 0;
+    };
+
+    void add(const StarShape& shape, const Fan& fan);
+    Fan code_plainly(BitCoder& coder, const StarShape& shape, const Fan& fan);
+    std::size_t code_rank(BitCoder& coder, std::size_t wanted);
+    void learn(std::size_t chosen);
+
+    std::vector<Candidate> candidates_;
+    std::vector<std::size_t> order_;
+    double evidence_ = 0;
+    std::vector<double> weights_, squares_;
+    BitModel<4> is_it_;
+};
+
+}  // namespace multires::stream

@@ -1,0 +1,56 @@
+#pragma once
+
+#include "hierarchy/hierarchy.h"
+#include "stream/progress.h"
+
+#include <vector>
+
+namespace multires::stream {
+
+/// What an encoder is going to write: the mesh taken down to a base, and the batches of vertices that lead back.
+///
+/// Batches are the independent sets of a hierarchy, in two parts. Fine ones are as large as can be and keep triangles
+/// even, which costs the fewest bits; coarse ones take the cheapest half of what they could and go by the quadric
+/// almost alone, which gives the best prefixes.
+class Plan final : public Guide {
+public:
+    /// @param cells  #V of the input, at the finest precision
+    /// @param tick   see build_hierarchy()
+    Plan(const Faces& faces, const std::vector<Cell>& cells, const Tick& tick = {});
+
+    Faces base_faces() const;
+    Index base_vertices() const { return base_; }
+    std::size_t batches() const { return batches_.size(); }
+    /// Input vertex of vertex v of the stream.
+    Index source(Index v) const { return order_[place_[v]]; }
+    /// Estimate of the RMS distance, in cells, of the input's vertices from the mesh before a batch.
+    double error(std::size_t batch) const { return error_[batch]; }
+
+    void begin_batch(std::size_t batch);
+    std::optional<NewVertex> next(Index u, const Star& star) override;
+    void done(Index u, Index v) override;
+    Cell cell(Index v) const override;
+
+    int bits_less = 0;  ///< by how much the cells are coarser at present
+
+private:
+    struct Batch {
+        Index coarse = 0;  ///< vertices before it; row r is that of place coarse + r
+        Rings odd;         ///< at the moment of their removal, in places
+    };
+    void add_fine(Hierarchy fine, const Array<Index>& coarse_place);
+    void estimate_errors(const Positions& positions);
+    Fan find_fan(Index row, Index parent, const Star& star) const;
+
+    Faces faces_;
+    std::vector<Cell> cells_;
+    Index base_ = 0;
+    Array<Index> order_, parent_;  ///< #V by place, as in Hierarchy
+    std::vector<Batch> batches_;   ///< in order of the stream
+    std::vector<double> error_;
+    std::vector<Index> place_, vertex_;  ///< of vertices of the stream; and back, -1: not yet there
+    const Batch* batch_ = nullptr;
+    std::vector<Index> first_row_, next_row_;  ///< rows of each place's children in the batch; -1: none
+};
+
+}  // namespace multires::stream

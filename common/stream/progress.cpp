@@ -1,0 +1,124 @@
+#include "stream/progress.h"
+
+#include "base/error.h"
+#include "stream/geometry.h"
+
+#include <algorithm>
+
+namespace multires::stream {
+namespace {
+
+int clamp(int x, int most) { return std::min(std::max(x, 0), most); }
+
+}  // namespace
+
+void add_bulge(const StarMesh& mesh, const Positions& from, double share, Positions& to) {
+    Star star;
+    for (Index v = 0; v < mesh.vertices(); ++v) {
+        if (!mesh.regular(v)) continue;
+        mesh.star(v, star);
+        if (!star.closed) continue;
+        Vec3 sum(0, 0, 0), up(0, 0, 0);
+        for (Index i = 0; i < star.faces(); ++i) {
+            sum += from[star.spoke[i]];
+            up += cross(from[star.spoke[i]] - from[v], from[star.spoke[i + 1]] - from[v]);
+        }
+        const double size = dot(up, up);
+        if (size > 0) to[v] -= up * (share * dot(sum / star.faces() - from[v], up) / size);
+    }
+}
+
+Progress::Progress(std::vector<Cell> cells, const Faces& faces, int bits, Index most)
+    : mesh_(static_cast<Index>(cells.size()), faces), cells_(std::move(cells)), parent_(cells_.size(), -1), bits_(bits),
+      most_(most), batch_of_face_(mesh_.faces(), -1), is_split_({20 * 3, 64 * 3, 16 * 16, 32 * 20, 16 * 16}, 3),
+      finer_({64, 64, 64}, 1) {
+    points_.resize(cells_.size());
+    for (Index v = 0; v < mesh_.vertices(); ++v) set_cell(v, cells_[v]);
+}
+
+void Progress::set_cell(Index v, const Cell& cell) {
+    cells_[v] = cell;
+    points_[v] = Vec3(cell[0], cell[1], cell[2]);
+}
+
+void Progress::begin_batch() {
+    ++batch_;
+    at_ = 0;
+    order_.clear();
+    for (Index v = 0; v < mesh_.vertices(); ++v)
+        if (mesh_.regular(v)) order_.push_back(v);
+    std::stable_sort(order_.begin(), order_.end(),
+                     [&](Index a, Index b) { return mesh_.valence(a) > mesh_.valence(b); });
+    require(!order_.empty(), "the stream is damaged: nothing can be split");
+}
+
+void Progress::visit(BitCoder& coder, Guide* guide) {
+    if (at_ == order_.size()) begin_batch();
+    const Index u = order_[at_++];
+    for (int children = 0;; ++children) {
+        shape_.take(mesh_, points_, u, batch_of_face_, batch_);
+        fans_.rank(shape_);
+        if (fans_.empty()) break;
+        std::optional<NewVertex> wanted;
+        if (guide) wanted = guide->next(u, shape_.star);
+        if (!is_split(coder, wanted.has_value(), children)) break;
+        split(coder, u, wanted.value_or(NewVertex()));
+        if (guide) guide->done(u, mesh_.vertices() - 1);
+    }
+}
+
+bool Progress::is_split(BitCoder& coder, bool yes, int children) {
+    const Index d = shape_.star.faces();
+    const int more = std::min(children, 2), valence = clamp(d, 19);
+    Index taken = 0;
+    for (const std::uint8_t t : shape_.taken) taken += t;
+    const int evidence = clamp(static_cast<int>((fans_.evidence() + 8) * 4), 63);
+    const double mean = mean_area_ > 0 ? mean_area_ : 1;
+    const int size = clamp(octave_steps(shape_.total / mean + 1e-9, 2) + 8, 15);
+    const int density = clamp(static_cast<int>(density_ * 16), 15);
+    const bool out = is_split_.code(coder, yes,
+                                    {valence * 3 + more, evidence * 3 + more, clamp(taken, 15) * 16 + clamp(d, 15),
+                                     (evidence / 2) * 20 + valence, size * 16 + density},
+                                    more);
+    if (children == 0) {
+        density_ += ((out ? 1 : 0) - density_) / 64;
+        mean_area_ = mean_area_ > 0 ? mean_area_ + (shape_.total - mean_area_) / 64 : shape_.total;
+    }
+    return out;
+}
+
+void Progress::split(BitCoder& coder, Index u, const NewVertex& wanted) {
+    require(mesh_.vertices() < most_, "the stream is damaged: it has more vertices than it says");
+    const Fan fan = fans_.code(coder, shape_, wanted.fan);
+    mesh_.split(u, shape_.star, fan);
+    const Index v = mesh_.vertices() - 1;
+    cells_.emplace_back();
+    points_.emplace_back(0, 0, 0);
+    parent_.push_back(u);
+    const Cell cell = places_.code(coder, mesh_, points_, v, u, wanted.cell);
+    for (const std::int32_t x : cell)
+        require(x >= 0 && x < std::int32_t{1} << bits_, "the stream is damaged: a place outside the box");
+    set_cell(v, cell);
+    batch_of_face_.resize(mesh_.faces(), -1);
+    mesh_.star(v, star_);
+    for (const Index h : star_.leaving) batch_of_face_[h / 3] = batch_;
+}
+
+void Progress::refine(BitCoder& coder, const Guide* guide) {
+    Positions smooth = points_;
+    add_bulge(mesh_, points_, -0.5, smooth);
+    for (Index v = 0; v < mesh_.vertices(); ++v) {
+        Cell finer = guide ? guide->cell(v) : Cell{};
+        for (int axis = 0; axis < 3; ++axis) {
+            const double off = smooth[v][axis] - points_[v][axis];
+            const int lean = clamp(static_cast<int>((std::min(std::max(off, -1.9), 1.9) + 2) * 16), 63);
+            const bool up = finer_.code(coder, finer[axis] & 1, {lean, 32 + axis, lean / 4}, 0);
+            finer[axis] = cells_[v][axis] * 2 + (up ? 1 : 0);
+        }
+        cells_[v] = finer;
+    }
+    ++bits_;
+    for (Index v = 0; v < mesh_.vertices(); ++v) set_cell(v, cells_[v]);
+}
+
+}  // namespace multires::stream
