@@ -2,8 +2,9 @@
 #
 # Input (cache or -D):
 #   MESHLAB_SOURCE_DIR       root of a MeshLab source tree with vcglib in it (holds ML_VERSION)
-#   MESHLAB_COMMON_LIBRARY   its libmeshlab-common.so. Not given: an installed one is looked for. Empty: plugins are
-#                            linked without it and find its symbols in the process that loads them.
+#   MESHLAB_COMMON_LIBRARY   its libmeshlab-common.so, libmeshlab-common.dylib or, the import library, meshlab-common.lib.
+#                            Not given: an installed one is looked for. Empty: plugins are linked without it and find
+#                            its symbols in the process that loads them, which Windows does not have.
 #   MESHLAB_SCALAR           float or double, as that library was built; a plugin of the other kind is refused by it
 #
 # Output:
@@ -17,7 +18,7 @@
 set(MESHLAB_SCALAR float CACHE STRING "Scalar type that MeshLab was built with: float or double")
 set_property(CACHE MESHLAB_SCALAR PROPERTY STRINGS float double)
 if(NOT DEFINED MESHLAB_COMMON_LIBRARY)
-  find_library(MESHLAB_COMMON_LIBRARY meshlab-common PATH_SUFFIXES meshlab DOC "libmeshlab-common.so, or empty")
+  find_library(MESHLAB_COMMON_LIBRARY meshlab-common PATH_SUFFIXES meshlab DOC "MeshLab's library, or empty")
 endif()
 
 # The interface's header tells the two APIs apart, also in trees between the releases.
@@ -38,6 +39,9 @@ mark_as_advanced(MESHLAB_VCGLIB_DIR)
 set(meshlab_library_ok TRUE)
 if(MESHLAB_COMMON_LIBRARY AND NOT EXISTS "${MESHLAB_COMMON_LIBRARY}")
   set(meshlab_library_ok FALSE)
+endif()
+if(WIN32 AND NOT MESHLAB_COMMON_LIBRARY)
+  message(FATAL_ERROR "On Windows plugins are linked with meshlab-common.lib: set MESHLAB_COMMON_LIBRARY to it.")
 endif()
 if(NOT MESHLAB_SCALAR MATCHES "^(float|double)$")
   message(FATAL_ERROR "MESHLAB_SCALAR is '${MESHLAB_SCALAR}', must be float or double")

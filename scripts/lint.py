@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Runs clang-tidy over our sources, as they are compiled in the given build folders, on all cores.
+"""Runs clang-tidy over our sources, as they are compiled in the given build folders, on all cores; and checks the workflows.
 
     scripts/lint.py BUILD...
 
 A source that passed is not looked at again until it, a header of ours that it includes, its compile command or
-.clang-tidy changes: what passed is noted in .cache/lint/ under the hash of all these.
+.clang-tidy changes: what passed is noted in .cache/lint/ under the hash of all these. Workflows are held against GitHub's
+schema, every action in them must be pinned by a commit's hash, and actionlint checks them where it is installed.
 
 Sources of one folder that are compiled alike are looked at as one, which takes a third of the time, for most of it goes
 into the headers. If anything is found, or they cannot be compiled as one, each is looked at alone: what counts is that.
@@ -16,7 +17,9 @@ import hashlib
 import json
 import os
 import pathlib
+import re
 import shlex
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -112,14 +115,32 @@ def check(batch):
     return faults
 
 
+def workflow_faults():
+    """What is wrong with .github/workflows/."""
+    faults = []
+    files = sorted((ROOT / ".github/workflows").glob("*.yml"))
+    for file in files:
+        for line in file.read_text().splitlines():
+            action = re.match(r"\s*(?:- )?uses:\s*(\S+)", line)
+            if action and not re.fullmatch(r"[\w./-]+@[0-9a-f]{40}", action[1]):
+                faults.append(f"{file.relative_to(ROOT)}: {action[1]} is not pinned by a commit's hash")
+    checks = [[ROOT / ".venv/bin/check-jsonschema", "--builtin-schema", "vendor.github-workflows"]]
+    checks += [["actionlint"]] if shutil.which("actionlint") else []
+    for check in checks if files else []:
+        done = subprocess.run([*check, *files], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        faults += [done.stdout] if done.returncode else []
+    return faults
+
+
 def main():
     PASSED.mkdir(parents=True, exist_ok=True)
     todo = list(jobs([pathlib.Path(b).resolve() for b in sys.argv[1:]]))
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
         faults = [fault for found in pool.map(check, batches(todo)) for fault in found]
-    print(*faults, sep="\n")
-    print(f"clang-tidy: looked at {len(todo)} sources, {len(faults)} with faults")
-    return 1 if faults else 0
+    workflows = workflow_faults()
+    print(*faults, *workflows, sep="\n")
+    print(f"clang-tidy: looked at {len(todo)} sources, {len(faults)} with faults; workflows: {len(workflows)} faults")
+    return 1 if faults or workflows else 0
 
 
 sys.exit(main())

@@ -2,6 +2,7 @@
 # Installs what is missing, and nothing else: Debian packages, .venv/, MeshLab's sources in .cache/.
 #   scripts/setup.sh demo    enough to build and run the pymeshlab preset
 #   scripts/setup.sh         everything: all presets, all tests
+#   scripts/setup.sh portable   everything, and the compilers and emulators of scripts/check_portable.sh
 # Made for Debian 12; needs root or sudo only if a package is missing. May be run at any time.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -11,8 +12,11 @@ packages=(build-essential ca-certificates ccache cmake ninja-build
     libeigen3-dev libxxhash-dev libzstd-dev libglew-dev libgtest-dev libbenchmark-dev qtbase5-dev libqt5opengl5-dev
     python3 python3-venv dpkg-dev debian-archive-keyring xz-utils
     libegl1 libgl1 libgl1-mesa-dri libglu1-mesa libopengl0 libxrender1 xvfb xauth)
-if [ "$what" = all ]; then
+if [ "$what" != demo ]; then
     packages+=(meshlab clang clang-format clang-tidy libclang-rt-dev chromium-headless-shell)
+fi
+if [ "$what" = portable ]; then
+    packages+=(g++-mingw-w64-x86-64-posix wine64 g++-aarch64-linux-gnu qemu-user libc++-dev libc++abi-dev)
 fi
 
 missing=()
@@ -43,8 +47,12 @@ mkdir -p .cache
 wheel=$(.venv/bin/python -c 'import sysconfig; print(sysconfig.get_path("platlib"))')/pymeshlab
 [ "$(readlink .cache/pymeshlab)" = "$wheel" ] || ln -sfn "$wheel" .cache/pymeshlab
 
+if [ "$what" = portable ] && ! ls .venv/lib/python3*/site-packages/ziglang/zig >/dev/null 2>&1; then
+    .venv/bin/pip install -q ziglang==0.17.1
+fi
+
 scripts/fetch_meshlab.sh 2025.07
-if [ "$what" = all ]; then
+if [ "$what" != demo ]; then
     scripts/fetch_meshlab.sh 2020.09
     scripts/fetch_meshlab.sh 2022.02
 fi

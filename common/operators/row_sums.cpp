@@ -4,9 +4,13 @@
 #include <cstdint>
 #include <cstring>
 
-#if defined(__GNUC__) && defined(__x86_64__)
+// GCC for Windows does not align vectors of 32 bytes on the stack (its bug 54412); other compilers have no such
+// vectors.
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__)) && (defined(__clang__) || !defined(_WIN32))
 #define MULTIRES_VECTORS
+#ifndef __clang__
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed to functions that are always inlined
+#endif
 #endif
 
 namespace multires {
@@ -130,6 +134,8 @@ MULTIRES_INLINE void sums_by_four(const Table<Weight>& t, Index begin, Index end
     }
 }
 
+#ifdef __x86_64__
+
 template <int Width, int Halves, class Weight>
 __attribute__((target("avx2"))) void sums_with_avx2(const Table<Weight>& t, Index begin, Index end, const double* f,
                                                     double* out) {
@@ -144,6 +150,15 @@ void sums_by_width(const Table<Weight>& t, Index begin, Index end, const double*
     else
         sums_by_four<Width, Halves>(t, begin, end, f, out);
 }
+
+#else  // two NEON registers for one vector
+
+template <int Width, int Halves, class Weight>
+void sums_by_width(const Table<Weight>& t, Index begin, Index end, const double* f, double* out) {
+    sums_by_four<Width, Halves>(t, begin, end, f, out);
+}
+
+#endif
 
 template <int Width, class Weight>
 void sums_by_width(const Table<Weight>& t, Index begin, Index end, const double* f, double* out) {

@@ -2,12 +2,14 @@
 
 #include "host/apply.h"
 #include "host/fold_2020.h"
+#include "host/stay_loaded.h"
 
 #include <QAction>
 
 namespace multires::host {
 
 Host::Host(const plugin::Plugin& table) : table_(table) {
+    stay_loaded();
     for (std::size_t id = 0; id < table.filters.size(); ++id) {
         typeList << static_cast<FilterIDType>(id);
         actionList << new QAction(QString::fromStdString(table.filters[id].name), this);

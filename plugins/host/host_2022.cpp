@@ -1,6 +1,7 @@
 #include "host/host_2022.h"
 
 #include "host/apply.h"
+#include "host/stay_loaded.h"
 
 #include <QAction>
 
@@ -28,6 +29,7 @@ std::map<std::string, QVariant> values(const Report& report) {
 }  // namespace
 
 Host::Host(const plugin::Plugin& table) : table_(table), output_(std::cout.rdbuf()), errors_(std::cerr.rdbuf()) {
+    stay_loaded();
     for (std::size_t id = 0; id < table.filters.size(); ++id) {
         typeList.push_back(static_cast<ActionIDType>(id));
         actionList.push_back(new QAction(QString::fromStdString(table.filters[id].name), this));
