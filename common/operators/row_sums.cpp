@@ -8,9 +8,7 @@
 // vectors.
 #if defined(__GNUC__) && (defined(__x86_64__) || defined(__aarch64__)) && (defined(__clang__) || !defined(_WIN32))
 #define MULTIRES_VECTORS
-#ifndef __clang__
 #pragma GCC diagnostic ignored "-Wpsabi"  // vectors are passed to functions that are always inlined
-#endif
 #endif
 
 namespace multires {
