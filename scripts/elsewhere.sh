@@ -24,7 +24,7 @@ setup() {
     fetch cnr-isti-vclab/vcglib c94ef4e12e9ea3ae986d9af91005be8328d13719 .cache/meshlab-2025.07/src/vcglib
     git clone -q --depth 1 https://github.com/microsoft/vcpkg .cache/vcpkg
     .cache/vcpkg/bootstrap-vcpkg.sh -disableMetrics
-    .cache/vcpkg/vcpkg install eigen3 glew xxhash gtest
+    .cache/vcpkg/vcpkg install eigen3 glew xxhash zstd gtest
 }
 
 # fetch REPOSITORY COMMIT FOLDER
