@@ -10,8 +10,6 @@
 namespace multires {
 namespace {
 
-Vec3 area_vector(const Face& f, const Positions& p) { return (p[f[1]] - p[f[0]]).cross(p[f[2]] - p[f[0]]); }
-
 /// cos^2 of the largest turn of a face.
 constexpr double least_cosine_square = 0.5;
 /// What a step leaves of the part along the surface where faces turn too far, and how near neighbours follow.

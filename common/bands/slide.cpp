@@ -1,5 +1,6 @@
 #include "bands/slide.h"
 
+#include "bands/directions.h"
 #include "bands/spline.h"
 #include "base/parallel.h"
 #include "measure/distance.h"
@@ -20,8 +21,6 @@ constexpr double least_cosine = 0.5;
 constexpr double least_gain = 1e-3;  ///< of the sum
 constexpr int most_rounds = 15;
 constexpr Index most_faces = 500;  ///< around a vertex: others stay, count for nothing, and no walk goes over them
-
-Vec3 area_vector(const Face& f, const Positions& p) { return (p[f[1]] - p[f[0]]).cross(p[f[2]] - p[f[0]]); }
 
 Vec3 unit(const Vec3& v) {
     const double length = v.norm();
