@@ -239,6 +239,21 @@ void apply_stiffness(const Stiffness& c, const double* f, int channels, double* 
             for (int w = 0; w < width; ++w) to[w] += c.weight[k] * (own[w] - other[w]);
         }
     });
+    std::vector<double> sum(width);
+    const auto at = [&](auto* values, Index row) { return values + static_cast<std::size_t>(row) * width; };
+    for (std::size_t h = 0; h < c.hub.size(); ++h) {
+        const double* const centre = at(f, c.hub[h]);
+        double* const to_centre = at(out, c.hub[h]);
+        std::fill(sum.begin(), sum.end(), 0.0);
+        for (Index k = c.hub_offset[h]; k < c.hub_offset[h + 1]; ++k)  // differences: constants give exactly 0
+            for (int w = 0; w < width; ++w) sum[w] += c.hub_weight[k] * (at(f, c.hub_column[k])[w] - centre[w]);
+        for (Index k = c.hub_offset[h]; k < c.hub_offset[h + 1]; ++k)
+            for (int w = 0; w < width; ++w) {
+                const double star = c.hub_star[k] * (at(f, c.hub_column[k])[w] - centre[w]);
+                at(out, c.hub_column[k])[w] += c.hub_weight[k] * sum[w] - star;
+                to_centre[w] += star;
+            }
+    }
 }
 
 }  // namespace
@@ -251,11 +266,14 @@ Stiffness bending(const Stiffness& c) {
     const Index n = c.rows();
     double mean = 0;
     for (const double m : c.mass) mean += m / n;
-    Array<double> diagonal(n), inverse(n);
+    Array<double> diagonal(n), inverse(n), star(n);  // star: what |weights| of a hub are multiplied by, see hub_star
     parallel_for(n, [&](Index i) {
+        const Index neighbours = c.offset[i + 1] - c.offset[i];
         diagonal[i] = 0;
-        for (Index k = c.offset[i]; k < c.offset[i + 1]; ++k) diagonal[i] += c.weight[k];
+        double sum = 0;
+        for (Index k = c.offset[i]; k < c.offset[i + 1]; ++k) diagonal[i] += c.weight[k], sum += std::abs(c.weight[k]);
         inverse[i] = mean > 0 ? 1 / std::max(c.mass[i] / mean, 1e-6) : 1;
+        star[i] = neighbours > most_bending_neighbours ? sum * inverse[i] / neighbours : 0;
     });
     constexpr Index grain = 4096;
     std::vector<std::vector<std::pair<Index, double>>> pieces((n + grain - 1) / grain);
@@ -276,8 +294,10 @@ Stiffness bending(const Stiffness& c) {
         for (Index i = begin; i < end; ++i) {
             row.clear();
             visit_row(i, [&](Index k, double a) {
-                if (c.offset[k + 1] - c.offset[k] > most_bending_neighbours) return;
-                visit_row(k, [&](Index j, double b) { row.emplace_back(j, a * b * inverse[k]); });
+                if (star[k] == 0)
+                    return visit_row(k, [&](Index j, double b) { row.emplace_back(j, a * b * inverse[k]); });
+                if (k != i) row.emplace_back(k, -std::abs(a) * star[k]);
+                if (k == i) visit_row(i, [&](Index j, double b) { row.emplace_back(j, -std::abs(b) * star[i]); });
             });
             std::stable_sort(row.begin(), row.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
             const std::size_t from = piece.size();
@@ -303,6 +323,16 @@ Stiffness bending(const Stiffness& c) {
             for (const auto& [j, w] : pieces[p]) square.column[at] = j, square.weight[at++] = w;
         },
         1);
+    for (Index i = 0; i < n; ++i) {
+        if (star[i] == 0) continue;
+        square.hub.push_back(i);
+        visit_row(i, [&](Index j, double a) {
+            square.hub_column.push_back(j);
+            square.hub_weight.push_back(std::sqrt(inverse[i]) * a);
+            square.hub_star.push_back(j == i ? 0 : std::abs(a) * star[i]);
+        });
+        square.hub_offset.push_back(static_cast<Index>(square.hub_column.size()));
+    }
     return square;
 }
 

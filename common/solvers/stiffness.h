@@ -49,6 +49,15 @@ struct Stiffness {
     /// one and 0.62, which on irregular planes brought waves of 4 and 6 edges through low passes best. A quarter of the
     /// diagonal masses <= M.
     Array<double> mass_weight;
+    /// What is too dense for entries (bending()): beside them, C is the sum over hubs of u u' - S. The vectors u have
+    /// as many columns as the hub has neighbours, and one. S, the matrix with the entries -hub_star between the hub and
+    /// them and rows that sum to 0, is of the size of u u' where u varies slowly; the entries hold it, so that they
+    /// alone are definite, too. Hub h has hub_offset[h] to hub_offset[h + 1].
+    Array<Index> hub;  ///< the vertices
+    Array<Index> hub_offset{0};
+    Array<Index> hub_column;   ///< ascending for each hub
+    Array<double> hub_weight;  ///< u
+    Array<double> hub_star;    ///< > 0; of the hub itself 0
 
     Index rows() const { return static_cast<Index>(mass.size()); }
 };
@@ -67,8 +76,8 @@ void apply_stiffness(const Stiffness& c, const double* f, int width, double* out
 /// The matrix of the bending energy, C M^-1 C, in the same form: symmetric, semidefinite, rows that sum to 0. f' C M^-1
 /// C f is the integral of the squared Laplacian. In units of the mean mass, so that entries do not depend on scale: the
 /// matrix times the mean mass. Masses below 1e-6 of the mean count as that. The Laplacian at vertices of more than 100
-/// neighbours does not count: every pair of those would be an entry. About 19 entries a row. Cost: linear, parallel;
-/// same bits for any number of threads.
+/// neighbours is kept as one of Stiffness::hub_weight: every pair of those would be an entry. About 19 entries a row.
+/// Cost: linear, parallel; same bits for any number of threads.
 Stiffness bending(const Stiffness& c);
 
 /// out = M f, the same way.

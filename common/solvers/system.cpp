@@ -35,6 +35,27 @@ void require_shape(ConstRows rows, const Stiffness& matrices, int width) {
         throw std::invalid_argument("System: arrays of different shapes");
 }
 
+/// q += s (the hubs' part of C) p for active rows.
+template <int Stride>
+void apply_hubs(const Stiffness& c, const Array<std::uint8_t>& active, double s, const Array<double>& p,
+                Array<double>& q) {
+    using Row = Eigen::Array<double, Stride, 1>;
+    const auto at = [](auto& values, Index i) { return values.data() + static_cast<std::size_t>(i) * Stride; };
+    for (std::size_t h = 0; h < c.hub.size(); ++h) {
+        const Row centre = Eigen::Map<const Row>(at(p, c.hub[h]));
+        Row sum = Row::Zero(), stars = Row::Zero();
+        for (Index k = c.hub_offset[h]; k < c.hub_offset[h + 1]; ++k)
+            sum += c.hub_weight[k] * Eigen::Map<const Row>(at(p, c.hub_column[k]));
+        for (Index k = c.hub_offset[h]; k < c.hub_offset[h + 1]; ++k) {
+            const Index j = c.hub_column[k];
+            const Row star = c.hub_star[k] * (Eigen::Map<const Row>(at(p, j)) - centre);
+            stars += star;
+            if (active[j]) Eigen::Map<Row>(at(q, j)) += s * (c.hub_weight[k] * sum - star);
+        }
+        if (active[c.hub[h]]) Eigen::Map<Row>(at(q, c.hub[h])) += s * stars;
+    }
+}
+
 /// q = (z M + s C) p for active rows; the rows of the others are 0 in p and q.
 template <int L, bool Z>
 void apply(const Stiffness& c, const Array<std::uint8_t>& active, std::complex<double> z, double s,
@@ -70,6 +91,7 @@ void apply(const Stiffness& c, const Array<std::uint8_t>& active, std::complex<d
         }
         out = sum;
     });
+    apply_hubs<stride>(c, active, s, p, q);
 }
 
 /// Some channels of a system: which, and what they are divided by to have the size of 1.

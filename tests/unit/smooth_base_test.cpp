@@ -1,8 +1,9 @@
 #include "filters/editing/smooth_base.h"
 
+#include "base/angles.h"
 #include "filter_fixtures.h"
 #include "measure/measure.h"
-#include "solvers/stiffness.h"
+#include "solvers/system.h"
 
 // Smooth Base as Layer.
 
@@ -67,6 +68,54 @@ TEST(SmoothBase, HasLeastBendingEnergyOfAllShapesThroughTheVerticesKept) {
             if (other[v] != mesh.positions[v])
                 other[v] += 1e-4 * Vec3(std::sin(k + 5 * other[v].x()), std::cos(k * other[v].y()), k - other[v].z());
         EXPECT_GT(energy(mesh, other), least);
+    }
+}
+
+/// A disc of rings around a hub with as many neighbours.
+Mesh wheel(Index neighbours, int rings) {
+    Mesh mesh;
+    mesh.positions.push_back(Vec3::Zero());
+    const auto at = [&](int ring, Index k) { return 1 + (ring - 1) * neighbours + k % neighbours; };
+    for (int ring = 1; ring <= rings; ++ring)
+        for (Index k = 0; k < neighbours; ++k) {
+            const double angle = 2 * pi * k / neighbours, r = static_cast<double>(ring) / rings;
+            mesh.positions.push_back(r * Vec3(std::cos(angle), std::sin(angle), 0));
+            if (ring == 1) mesh.faces.push_back({0, at(1, k), at(1, k + 1)});
+            if (ring == 1) continue;
+            mesh.faces.push_back({at(ring - 1, k), at(ring, k), at(ring, k + 1)});
+            mesh.faces.push_back({at(ring - 1, k), at(ring, k + 1), at(ring - 1, k + 1)});
+        }
+    return mesh;
+}
+
+// The bending energy leaves out the Laplacian at vertices of more than 100 neighbours, but not the vertices: those of
+// their neighbours hold them.
+TEST(SmoothBase, OfAHubWithManyNeighboursIsAsSmoothAsOfOneWithFew) {
+    constexpr int rings = 8;
+    const auto hub = [](Index neighbours, const auto& height) {
+        const Mesh disc = wheel(neighbours, rings);
+        SystemOptions how;
+        how.bending = true;
+        how.fixed.assign(disc.positions.size(), 1);
+        Array<double> z(disc.positions.size()), nothing(disc.positions.size(), 0.0);
+        for (std::size_t v = 0; v < z.size(); ++v) z[v] = height(disc.positions[v]);
+        for (std::size_t v = 0; v < z.size() - 3 * static_cast<std::size_t>(neighbours); ++v)
+            how.fixed[v] = 0, z[v] = std::sin(static_cast<double>(v));
+        const System solver(disc, how);
+        SolveOptions options;
+        options.tolerance = 1e-10;
+        solver.solve(0, 1, ConstRows(nothing, 1), Rows(z, 1), options);
+        double largest = 0;
+        for (std::size_t v = 0; v < z.size(); ++v)
+            largest = std::max(largest, std::abs(z[v] - height(disc.positions[v])));
+        return std::make_pair(z[0], largest);
+    };
+    const auto plane = [](const Vec3& p) { return 1 + 2 * p.x() - p.y(); };
+    const auto bowl = [](const Vec3& p) { return p.squaredNorm(); };
+    for (const Index neighbours : {12, 101, 200}) {
+        SCOPED_TRACE(neighbours);
+        EXPECT_LT(hub(neighbours, plane).second, 1e-4) << "linear functions have no bending energy";
+        EXPECT_NEAR(hub(neighbours, bowl).first, 0, 0.02) << "nor has the hub of a bowl a tip";
     }
 }
 
