@@ -46,6 +46,13 @@ struct Fit {
         bb += w * other.bb;
         weight += w * other.weight;
     }
+    /// b - t c in place of b.
+    /// @param c     the same pairs with c for b
+    /// @param both  the sum of b c
+    void subtract(const Fit& c, double t, double both) {
+        ba -= t * c.ba;
+        bb += t * (t * c.bb - 2 * both);
+    }
     /// Mean of |b - G a|^2 / |a|^2.
     double misfit(const Mat3& g) const {
         if (!(weight > 0)) return 0;
@@ -74,23 +81,29 @@ Mat3 gradient_of_all(const Proxy& proxy) {
 }
 
 /// The edges around a vertex, and the normals of its faces.
+///
+/// The change of an edge to a neighbour is that by the mean of the gradients at both ends, to third order in its
+/// length, and by the vertex's own to second order only. So what the gradients around differ from its own, halved, is
+/// taken from the change ("curved"), in the measure that the edges fit best with it: fully where the motion is curved,
+/// not at all where the edges agree already, as after a stretch, and the gradients around differ by what is wrong in
+/// them. Likewise for normals, in the middle of faces.
 class Star {
 public:
-    Star(const Proxy& proxy, const Stars& stars, Index v) {
+    /// @param around  gradients of all vertices, averaged; empty: not known yet
+    Star(const Proxy& proxy, const Stars& stars, Index v, const Array<Mat3>& around) {
         const Vec3 &p = proxy.before[v], &p_after = proxy.after[v];
         for (Index k = stars.offset[v]; k < stars.offset[v + 1]; ++k) {
             const Index face = stars.corner[k] / 3, at = stars.corner[k] % 3;
-            const Index i = proxy.faces[face][(at + 1) % 3], j = proxy.faces[face][(at + 2) % 3];
-            const Vec3 e[2] = {proxy.before[i] - p, proxy.before[j] - p};
-            const Vec3 e_after[2] = {proxy.after[i] - p_after, proxy.after[j] - p_after};
+            Vec3 e[2], e_after[2];
+            Mat3 more = Mat3::Zero();
             for (int side = 0; side < 2; ++side) {
-                const double length = e[side].squaredNorm();
-                if (!(length > 0)) continue;
-                const Vec3 change = e_after[side] - e[side];
-                moves_ = moves_ || change != Vec3::Zero();
-                edges_.add(e[side], change, 1 / length);
+                const Index i = proxy.faces[face][(at + 1 + side) % 3];
+                e[side] = proxy.before[i] - p, e_after[side] = proxy.after[i] - p_after;
+                const Mat3 differs = around.empty() ? Mat3(Mat3::Zero()) : Mat3(around[i] - around[v]);
+                more += differs / 3;
+                add_edge(e[side], e_after[side], 0.5 * (differs * e[side]));
             }
-            add_normal(e[0].cross(e[1]), e_after[0].cross(e_after[1]));
+            add_normal(e[0].cross(e[1]), e_after[0].cross(e_after[1]), more);
         }
     }
 
@@ -100,24 +113,53 @@ public:
     Mat3 gradient(const Mat3& of_all) const {
         constexpr double least = 0.01, most = 1, trust = 0.1;
         constexpr int passes = 3;
+        const double t = share_of_curved();
+        Fit edges = edges_, normals = normals_;
+        edges.subtract(curved_edges_, t, edges_by_curved_);
+        normals.subtract(curved_normals_, t, 0);
         double weight = most;
         Mat3 g;
         for (int pass = 0;; ++pass) {
-            Fit fit = edges_;
-            fit.add(normals_, weight);
-            g = fit.solve(of_all, 1e-9);
+            Fit fit = edges;
+            fit.add(normals, weight);
+            g = fit.solve(of_all, little);
             if (pass == passes - 1) return g;
-            const double stretch = anisotropy(Mat3::Identity() + g), misfit = edges_.misfit(g);
+            const double stretch = anisotropy(Mat3::Identity() + g), misfit = edges.misfit(g);
             weight = misfit < most / trust * stretch ? std::max(least, trust * misfit / stretch) : most;
         }
     }
 
 private:
-    void add_normal(const Vec3& normal, const Vec3& normal_after) {
+    static constexpr double little = 1e-9;
+
+    void add_edge(const Vec3& e, const Vec3& e_after, const Vec3& curved) {
+        const double square = e.squaredNorm();
+        if (!(square > 0)) return;
+        const Vec3 change = e_after - e;
+        moves_ = moves_ || change != Vec3::Zero();
+        edges_.add(e, change, 1 / square);
+        curved_edges_.add(e, curved, 1 / square);
+        edges_by_curved_ += change.dot(curved) / square;
+    }
+
+    void add_normal(const Vec3& normal, const Vec3& normal_after, const Mat3& more) {
         const double area = normal.norm(), area_after = normal_after.norm();
         if (!(area > 0 && area_after > 0)) return;
         const Vec3 n = normal / area, n_after = normal_after / std::sqrt(area * area_after);
         normals_.add(n, n_after - n, 1);
+        curved_normals_.add(n, more * n, 1);
+    }
+
+    /// Of the edges' misfit without that of a linear map, as a function of the share: its minimum, in [0, 1].
+    double share_of_curved() const {
+        const double ridge = little * edges_.aa.trace();
+        if (!(ridge > 0)) return 0;
+        const Mat3 known = edges_.aa + ridge * Mat3::Identity();
+        const Mat3 map = curved_edges_.ba * known.inverse();
+        const double square = curved_edges_.bb - map.cwiseProduct(curved_edges_.ba).sum();
+        const double product = edges_by_curved_ - map.cwiseProduct(edges_.ba).sum();
+        constexpr double rounding = 1e-12;
+        return square > rounding * edges_.bb ? std::clamp(product / square, 0.0, 1.0) : 0;
     }
 
     /// How far a map is from a similarity: the square of its relative stretches, about.
@@ -127,9 +169,29 @@ private:
         return mean > 0 ? (square - mean * Mat3::Identity()).squaredNorm() / (4 * mean) : 0;
     }
 
-    Fit edges_, normals_;
+    Fit edges_, normals_, curved_edges_, curved_normals_;
+    double edges_by_curved_ = 0;
     bool moves_ = false;
 };
+
+/// Each gradient and the mean of its neighbours', half and half: without the alternating errors that corrections by
+/// the differences of neighbours would amplify.
+Array<Mat3> averaged(const Array<Mat3>& gradient, const Faces& faces, const Stars& stars) {
+    Array<Mat3> mean(gradient.size());
+    parallel_for(static_cast<Index>(gradient.size()), [&](Index v) {
+        const Index begin = stars.offset[v], end = stars.offset[v + 1];
+        mean[v] = gradient[v];
+        if (begin == end) return;
+        Mat3 sum = Mat3::Zero();
+        for (Index k = begin; k < end; ++k) {
+            const Face& f = faces[stars.corner[k] / 3];
+            const Index at = stars.corner[k] % 3;
+            sum += gradient[f[(at + 1) % 3]] + gradient[f[(at + 2) % 3]];
+        }
+        mean[v] = 0.5 * (gradient[v] + sum / (2 * (end - begin)));
+    });
+    return mean;
+}
 
 }  // namespace
 
@@ -137,12 +199,16 @@ Array<Mat3> displacement_gradients(const Proxy& proxy) {
     const auto count = static_cast<Index>(proxy.before.size());
     const Stars stars(proxy.faces, proxy.before.size());
     const Mat3 of_all = gradient_of_all(proxy);
-    Array<Mat3> gradient(count);
-    parallel_for(count, [&](Index v) {
-        const Star star(proxy, stars, v);
-        gradient[v] = star.moves() ? star.gradient(of_all) : Mat3(Mat3::Zero());
-    });
-    return gradient;
+    constexpr int corrections = 2;  // more gain little where proxies are coarse, and lose a little where they are fine
+    Array<Mat3> gradient(count), around;
+    for (int pass = 0;; ++pass) {
+        parallel_for(count, [&](Index v) {
+            const Star star(proxy, stars, v, around);
+            gradient[v] = star.moves() ? star.gradient(of_all) : Mat3(Mat3::Zero());
+        });
+        if (pass == corrections) return gradient;
+        around = averaged(gradient, proxy.faces, stars);
+    }
 }
 
 Vec3 closest_weights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {

@@ -21,7 +21,8 @@ struct Proxy {
 /// around it and n' - n = G n for the normals of its faces, by least squares. Edges count by direction, not by length:
 /// a long edge says no more of the motion at the vertex than a short one. A face's normal is n before and the square
 /// root of the ratio of its areas long after, so that a uniform scale is one (after Sumner and Popovic, "Deformation
-/// Transfer for Triangle Meshes", 2004, section 3).
+/// Transfer for Triangle Meshes", 2004, section 3). Then twice more with what the neighbours' gradients say of the
+/// curvature of the motion taken off, so that e' - e = (G_i + G_j) e / 2, about: that leaves two thirds of the error.
 ///
 /// Exactly zero around vertices that do not move. Exact to rounding for rotations, uniform scales and translations,
 /// also on degenerate stars: what those leave open is taken from the affine map that fits the whole proxy best.

@@ -111,6 +111,30 @@ TEST(DisplacementGradients, OfAffineMapsAreTheMapsAlongTheSurface) {
         EXPECT_LT((g + Mat3::Identity() - 1.7 * similarity.rotation).norm(), 1e-12);
 }
 
+TEST(DisplacementGradients, OfCurvedMotionsConverge) {
+    const auto error = [](Index vertices) {
+        const Mesh sphere = shapes::irregular_sphere(vertices);
+        const auto twist = [](const Vec3& p) { return Vec3(Eigen::AngleAxisd(1.5 * p.z(), Vec3::UnitZ()) * p); };
+        const auto gradients =
+            displacement_gradients({sphere.faces, sphere.positions, mapped(sphere, twist).positions});
+        double sum = 0;
+        for (std::size_t v = 0; v < gradients.size(); ++v) {
+            const Vec3& p = sphere.positions[v];
+            Mat3 exact;
+            constexpr double step = 1e-5;
+            for (int d = 0; d < 3; ++d)
+                exact.col(d) = (twist(p + step * Vec3::Unit(d)) - twist(p - step * Vec3::Unit(d))) / (2 * step);
+            const Vec3 n = p.normalized();
+            const Mat3 along = Mat3::Identity() - n * n.transpose();
+            sum += ((Mat3::Identity() + gradients[v] - exact) * along).squaredNorm();
+        }
+        return std::sqrt(sum / static_cast<double>(gradients.size()));
+    };
+    const double coarse = error(500), fine = error(8000);  // edges of a quarter
+    EXPECT_LT(fine, 0.022) << "0.029 without the gradients around";
+    EXPECT_LT(coarse, 0.08) << "0.097 without";
+}
+
 TEST(DisplacementGradients, OfSimilaritiesAreExactOnEveryClassOfMesh) {
     for (const auto& [name, mesh] : fixtures::every_class()) {
         SCOPED_TRACE(name);
@@ -385,6 +409,33 @@ TEST(FollowEdit, WorksWithProxiesOfEveryClass) {
         if (why.empty()) continue;
         EXPECT_NE(why.find("does not lie on the current layer"), std::string::npos) << why;
     }
+}
+
+TEST(FollowEdit, TakesProxiesOfTwelveVerticesAndOfMoreThanTheLayerHas) {
+    const Layer layer = layer_of(shapes::scan(3000, {0.05, 0.3, 5}));
+    const Positions truth = mapped(layer.mesh, twisted).positions;
+    const double moved = rms_distance(layer.mesh.positions, truth);
+    const auto error = [&](const Mesh& proxy) {
+        const Result r = follow(layer, layer_of(proxy), layer_of(mapped(proxy, twisted)));
+        EXPECT_EQ(count(r.report, "folded_faces"), 0);
+        return rms_distance(*r.positions, truth) / moved;
+    };
+    EXPECT_LT(error(level_of(layer, 0.004, false).mesh), 0.25);
+    EXPECT_LT(error(shapes::icosphere(1)), 0.25);
+    EXPECT_LT(error(shapes::scan(12000, {0.05, 0.3, 5})), 0.01);
+}
+
+TEST(FollowEdit, SaysThatTheEditedProxyIsFarLargerOrFarAway) {
+    const Layer layer = layer_of(shapes::scan(1000)), before = level_of(layer, 0.2, false);
+    const auto words = [&](const Similarity& motion) {
+        const Result r = follow(layer, before, layer_of(motion(before.mesh)));
+        EXPECT_LT(largest_distance(*r.positions, motion(layer.mesh).positions), 1e-9 * motion.scale);
+        return r.report.lines().at(0);
+    };
+    EXPECT_EQ(words({Similarity().rotation, 1.5, {1, 0, 0}}), "Following the change from one layer to the other.");
+    EXPECT_NE(words({Mat3::Identity(), 1000, {0, 0, 0}}).find("is 1e+03 times as large"), std::string::npos);
+    EXPECT_NE(words({Mat3::Identity(), 1e-3, {0, 0, 0}}).find("is 0.001 times as large"), std::string::npos);
+    EXPECT_NE(words({Mat3::Identity(), 1, {500, 0, 0}}).find("lies 500 from where it was"), std::string::npos);
 }
 
 TEST(FollowEdit, SaysWhatDoesNotFit) {

@@ -105,6 +105,20 @@ FoundProxy wrapped(const Layer& layer, const Pyramid& pyramid, FoundProxy found,
     return found;
 }
 
+/// Words on an edit that makes the proxy far larger or smaller, or moves it far away, which files in other units do;
+/// empty for others.
+std::string far_text(const FoundProxy& found) {
+    constexpr double most_times = 5, most_sizes = 2;
+    const Box before = bounding_box(found.before), after = bounding_box(found.after);
+    const double size = before.diagonal(), times = after.diagonal() / size;
+    const double way = (after.center() - before.center()).norm();
+    std::string text;
+    if (!(times < most_times && times > 1 / most_times)) text = "is " + short_text(times) + " times as large as it was";
+    if (!(way < most_sizes * std::max(size, after.diagonal())))
+        text += std::string(text.empty() ? "" : " and ") + "lies " + short_text(way) + " from where it was";
+    return text.empty() ? text : ". The edited proxy " + text + ": if that was not meant, check units and placement";
+}
+
 }  // namespace
 
 void require_layer(const Layer& layer, const char* which) {
@@ -162,6 +176,7 @@ FoundProxy find_proxy(const Inputs& inputs, const TransferEditOptions& options, 
             found = wrapped(layer, *pyramid, std::move(found), session.progress);
     }
     found.unchanged = found.before == found.after;
+    found.text += far_text(found);
     return found;
 }
 
