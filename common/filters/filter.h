@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/progress.h"
 #include "base/report.h"
+#include "filters/intermediate.h"
 #include "mesh/layer.h"
 #include "pyramid/cache.h"
 
@@ -55,6 +56,8 @@ struct Session {
     /// decide). A filter that builds one puts it here; the host keeps what is here with the mesh, whether the call
     /// succeeds or not: that is no change of the document.
     PyramidCache pyramids;
+    /// What filters worked out for this layer before their sliders came in, kept in the same way.
+    IntermediateCache intermediates;
     /// The systems of the calibrated filters (bands/spline.h), kept in the same way.
     std::shared_ptr<const Spline> spline;
     /// The shape the layer had before an earlier call of any of our plugins first moved it; null if none did. The host

@@ -191,7 +191,7 @@ void apply(const Filter& filter, const RichParameterList& list, MeshDocument& do
 
     Session session;
     session.progress = progress_of(callback);
-    const Borrowed borrowed(model.cm, session.pyramids);
+    const Borrowed borrowed(model.cm, session);
     const Kept before = kept(model.cm);
     session.original = before.original;
     session.spline = before.spline;
@@ -199,7 +199,7 @@ void apply(const Filter& filter, const RichParameterList& list, MeshDocument& do
     const OtherLayers others(read_parameters(list, call.parameters, document), model, flat);
     Result result = call.run({flat.layer, others.layers()}, session);
 
-    Kept after{session.pyramids, session.original, session.spline};
+    Kept after{session.pyramids, session.intermediates, session.original, session.spline};
     if (result.positions) {
         round_to_host(*result.positions);  // so that the shape is known again when it is read
         after.original = original_after(session.original.get(), flat.layer.mesh, *result.positions);

@@ -150,7 +150,7 @@ struct PendingResult::Parts {
             for (const std::string& name : layer->left_out())
                 result.report.say("Custom attribute \"" + name +
                                   "\" has a type that cannot be copied to the new layer.");
-        if (!kept.pyramids.all().empty() || kept.original || kept.spline) keeper.emplace(document, model.cm);
+        if (!kept.empty()) keeper.emplace(document, model.cm);
     }
 
     MeshModel& model;

@@ -27,8 +27,8 @@ namespace {
 
 // Change the numbers with the layout of Slot, Pyramid, Original or anything they hold: plugins of different builds
 // may meet.
-constexpr const char* attribute_name = "multires_kept_4";
-constexpr const char* list_name = "multires_slots_4";
+constexpr const char* attribute_name = "multires_kept_5";
+constexpr const char* list_name = "multires_slots_5";
 
 using Slots = std::set<Slot*>;
 
@@ -69,12 +69,18 @@ Kept kept(const CMeshO& mesh) {
     return slot ? slot->kept : Kept();
 }
 
-Borrowed::Borrowed(CMeshO& mesh, PyramidCache& to) : mesh_(mesh), pyramids_(to) {
-    if (Slot* slot = find_slot(mesh)) to = std::exchange(slot->kept.pyramids, {});
+Borrowed::Borrowed(CMeshO& mesh, Session& to) : mesh_(mesh), session_(to) {
+    Slot* slot = find_slot(mesh);
+    if (!slot) return;
+    to.pyramids = std::exchange(slot->kept.pyramids, {});
+    to.intermediates = std::exchange(slot->kept.intermediates, {});
 }
 
 Borrowed::~Borrowed() {
-    if (Slot* slot = find_slot(mesh_)) slot->kept.pyramids = std::move(pyramids_);
+    Slot* slot = find_slot(mesh_);
+    if (!slot) return;
+    slot->kept.pyramids = std::move(session_.pyramids);
+    slot->kept.intermediates = std::move(session_.intermediates);
 }
 
 void release_deleted(const MeshDocument& document) noexcept {

@@ -12,8 +12,11 @@ namespace multires::host {
 /// What a mesh keeps between calls; each may be null or empty.
 struct Kept {
     PyramidCache pyramids;
+    IntermediateCache intermediates;
     std::shared_ptr<const Original> original;
     std::shared_ptr<const Spline> spline;
+
+    bool empty() const { return pyramids.all().empty() && intermediates.all().empty() && !original && !spline; }
 };
 
 /// Where it keeps it: a named per-mesh attribute of vcg, which is not copied with the mesh. It is found by name, so it
@@ -32,19 +35,19 @@ struct Kept {
 /// plugins are therefore linked to stay loaded (-z nodelete).
 Kept kept(const CMeshO& mesh);
 
-/// What a mesh keeps, in the hands of one call: pyramids that the call lets go of are gone at once, for the mesh does
-/// not hold on to them. They go back when this ends, however that is: a cache that holds more, less or the same is no
+/// The caches that a mesh keeps, in the hands of one call: what the call lets go of is gone at once, for the mesh does
+/// not hold on to it. They go back when this ends, however that is: a cache that holds more, less or the same is no
 /// change of the document. The original stays with the mesh.
 class Borrowed {
 public:
-    explicit Borrowed(CMeshO& mesh, PyramidCache& to);
+    Borrowed(CMeshO& mesh, Session& to);
     ~Borrowed();
     Borrowed(const Borrowed&) = delete;
     Borrowed& operator=(const Borrowed&) = delete;
 
 private:
     CMeshO& mesh_;
-    PyramidCache& pyramids_;
+    Session& session_;
 };
 
 /// Releases what deleted meshes of the document kept. Cost: number of meshes.

@@ -90,7 +90,8 @@ void mesh(const CMeshO& m, Snapshot& s, Bytes& out) {
     s.storage.push_back(kept.original.get());
     s.cached.push_back(kept.spline.get());
     for (const auto& pyramid : kept.pyramids.all()) s.cached.push_back(pyramid.get());
-    s.caches.push_back(kept.spline || !kept.pyramids.all().empty());
+    for (const auto& other : kept.intermediates.all()) s.cached.push_back(other.get());
+    s.caches.push_back(kept.spline || !kept.pyramids.all().empty() || !kept.intermediates.all().empty());
 }
 
 }  // namespace

@@ -77,7 +77,8 @@ TEST(Bands, PutBackTogetherGiveTheMeshOnEveryClassOfMesh) {
         const Index coarsest = std::max<Index>(pyramid->hierarchy().size.back(), 1);
         const auto kept = kept_by_bases(*pyramid, BandLevels::ratio, 3, coarsest);
         const Multiband bands = multiband_of(mesh, *pyramid, kept, nullptr, {});
-        EXPECT_LT(largest_distance(bands.reconstruct(bands.coarsest(), {1, 1, 1}), mesh.positions), 1e-12 * size);
+        EXPECT_LT(largest_distance(bands.reconstruct(mesh.faces, bands.coarsest(), {1, 1, 1}), mesh.positions),
+                  1e-12 * size);
         BandsOptions options;
         options.vertices = 1;
         EXPECT_EQ(*split(layer, options).positions, mesh.positions);
@@ -169,7 +170,8 @@ TEST(Multiband, OfFiveBandsKeepsAMushroomBesideADuneWhereTwoBandsTearIt) {
     Index flips_of_two = 0, flips_of_five = 0;
     for (const double at : {0.15, 0.2, 0.25}) {
         const auto after = [&](const Multiband& bands) {
-            return bands.reconstruct(with_dune(bands.coarsest(), at), std::vector<double>(bands.bands(), 1));
+            return bands.reconstruct(whole.faces, with_dune(bands.coarsest(), at),
+                                     std::vector<double>(bands.bands(), 1));
         };
         EXPECT_LT(stretch_of_ball(whole, after(five)), 0.4 * stretch_of_ball(whole, after(two)));
         flips_of_two += compare(whole.faces, whole.positions, after(two)).flipped_faces;

@@ -1,6 +1,7 @@
 #include "filters/editing/move_region.h"
 
 #include "base/angles.h"
+#include "base/hash.h"
 #include "base/parallel.h"
 #include "editing/falloff.h"
 #include "filters/region.h"
@@ -48,7 +49,20 @@ Positions moved(const MoveRegionOptions& o, const Positions& x, const std::vecto
     return after;
 }
 
-/// Without what is finer than half the falloff.
+/// What does not depend on the motion, kept with the layer for the next one.
+class PreparedRegion final : public Intermediate {
+public:
+    using Intermediate::Intermediate;
+    std::size_t bytes() const override {
+        return sizeof *this + falloff.capacity() * sizeof(double) +
+               (base.capacity() + normal.capacity()) * sizeof(Vec3);
+    }
+
+    std::vector<double> falloff;
+    Positions base;      ///< without what is finer than half the falloff; empty if details need not follow
+    Array<Vec3> normal;  ///< of its vertices
+};
+
 Positions base_of(const Layer& layer, const MoveRegionOptions& o, Session& session) {
     Report about_pyramid;  // which nobody needs who does not choose a level
     const auto pyramid = pyramid_of(layer, o.pyramid, session, about_pyramid);
@@ -58,16 +72,47 @@ Positions base_of(const Layer& layer, const MoveRegionOptions& o, Session& sessi
     return pyramid->synthesise(gains);
 }
 
+ContentHash region_hash(const Layer& layer, const MoveRegionOptions& o, bool details) {
+    Hash hash;
+    hash.add(std::array<int, 2>{static_cast<int>(IntermediateKind::moved_region), details});
+    hash.add(content_hash(layer, o.pyramid));
+    hash.add(std::array<double, 1>{o.between.falloff});
+    for (const auto* selection : {&layer.selected_vertex, &layer.selected_face}) {
+        hash.add(std::array<std::uint64_t, 1>{selection->size()});
+        hash.add(*selection);
+    }
+    return hash.bits128();
+}
+
+/// @param details  are to follow
+std::shared_ptr<const PreparedRegion> region_of(const Layer& layer, const MoveRegionOptions& o, bool details,
+                                                Session& session) {
+    const ContentHash hash = region_hash(layer, o, details), shape = shape_hash(layer.mesh.positions, layer.mesh.faces);
+    return find_or_make<PreparedRegion>(session.intermediates, hash, shape, [&] {
+        const auto region = std::make_shared<PreparedRegion>(hash, shape);
+        const Progress whole = session.progress;
+        region->falloff = falloff_of(layer, o.between, whole.part(0, 0.5));
+        const bool between =
+            std::any_of(region->falloff.begin(), region->falloff.end(), [](double w) { return w > 0 && w < 1; });
+        if (!details || !between) return region;
+        session.progress = whole.part(0.5, 0.9);
+        region->base = base_of(layer, o, session);
+        region->normal = vertex_normals(layer.mesh.faces, region->base);
+        session.progress = whole;
+        return region;
+    });
+}
+
 /// Turns the height over the base, which has moved by the rotation of its vertex, into the normal of the moved base.
-void turn_details(const Mesh& mesh, const MoveRegionOptions& o, const Positions& base, const std::vector<double>& t,
-                  Positions& after) {
-    const Array<Vec3> normal = vertex_normals(mesh.faces, base);
-    const Array<Vec3> normal_after = vertex_normals(mesh.faces, moved(o, base, t));
-    parallel_for(static_cast<Index>(base.size()), [&](Index i) {
+void turn_details(const Mesh& mesh, const MoveRegionOptions& o, const PreparedRegion& region, Positions& after) {
+    const std::vector<double>& t = region.falloff;
+    const Array<Vec3> normal_after = vertex_normals(mesh.faces, moved(o, region.base, t));
+    parallel_for(static_cast<Index>(t.size()), [&](Index i) {
         if (!(t[i] > 0 && t[i] < 1)) return;
         const Eigen::AngleAxisd turn(t[i] * radians(o.angle), o.axis);
-        const double height = normal[i].dot(mesh.positions[i] - base[i]);
-        after[i] += std::pow(o.scale, t[i]) * height * (normal_after[i] - turn * normal[i]);
+        const Vec3& normal = region.normal[i];
+        const double height = normal.dot(mesh.positions[i] - region.base[i]);
+        after[i] += std::pow(o.scale, t[i]) * height * (normal_after[i] - turn * normal);
     });
 }
 
@@ -97,19 +142,13 @@ Result move_region(const Layer& layer, const MoveRegionOptions& options, Session
             "Nothing is selected: select the vertices or faces that are to move. The "
             "surface around them follows up to falloff");
     if (still) result.report.say("No motion is given: set translation, angle or scale.");
-    std::vector<double> t = falloff_of(layer, options.between, whole.part(0, 0.5));
-    Positions after = still ? x : moved(options, x, t);
-    const bool between = std::any_of(t.begin(), t.end(), [](double w) { return w > 0 && w < 1; });
-    if (options.details_follow && between && !still) {
-        session.progress = whole.part(0.5, 0.9);
-        const Positions base = base_of(layer, options, session);
-        session.progress = whole;
-        turn_details(layer.mesh, options, base, t, after);
-    }
+    const auto region = region_of(layer, options, options.details_follow && !still, session);
+    Positions after = still ? x : moved(options, x, region->falloff);
+    if (!still && !region->base.empty()) turn_details(layer.mesh, options, *region, after);
     whole.report(0.95, "Measuring the change");
     report_change(layer, after, result.report);
     result.positions = std::move(after);
-    if (options.store_falloff) result.quality = std::move(t);
+    if (options.store_falloff) result.quality = region->falloff;
     return result;
 }
 

@@ -1,12 +1,13 @@
 #include "filters/editing/transfer_edit.h"
 
+#include "base/hash.h"
 #include "base/parallel.h"
 #include "base/reduce.h"
-#include "editing/gradient_domain.h"
 #include "editing/soft_border.h"
 #include "filters/editing/bands.h"
-#include "filters/editing/proxies.h"
+#include "filters/editing/followed.h"
 #include "mesh/validation.h"
+#include "pyramid/pyramid.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,23 +22,6 @@ void check(const TransferEditOptions& options) {
     require(options.soft_border >= 0 && std::isfinite(options.soft_border), "soft_border must be a number, 0 or more");
 }
 
-/// The distance that a tenth of the vertices keep within.
-double nearest_tenth(const Array<Foot>& feet) {
-    std::vector<double> squared(feet.size());
-    for (std::size_t i = 0; i < feet.size(); ++i) squared[i] = feet[i].squared;
-    const auto at = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 10);
-    std::nth_element(squared.begin(), at, squared.end());
-    return std::sqrt(*at);
-}
-
-/// Of a mesh with so many times more vertices than the proxy. Averages over a fifth of the proxy's edges; beyond 8
-/// steps nothing is gained.
-GradientDomainOptions gradient_options(double vertices, double proxy_vertices) {
-    GradientDomainOptions options;
-    options.smoothing = static_cast<int>(std::clamp(std::round(0.2 * vertices / proxy_vertices), 1.0, 8.0));
-    return options;
-}
-
 /// Gains that change only what is finer than a level.
 std::vector<double> gains_below(const Hierarchy& h, std::size_t level, double gain) {
     std::vector<double> gains(h.levels.size(), 1);
@@ -45,174 +29,135 @@ std::vector<double> gains_below(const Hierarchy& h, std::size_t level, double ga
     return gains;
 }
 
-/// One call of the filter.
-class Transfer {
+/// What is finer than a level of the pyramid, #V by 3; kept with the layer, too.
+class FineDetail final : public Intermediate {
 public:
-    Transfer(const Layer& layer, const TransferEditOptions& options, const FoundProxy& found, Session& session,
-             Report& report)
-        : layer_(layer), options_(options), found_(found), session_(session), report_(report) {}
+    using Intermediate::Intermediate;
+    std::size_t bytes() const override { return sizeof *this + vectors.capacity() * sizeof(Vec3); }
+
+    Positions vectors;
+};
+
+std::shared_ptr<const FineDetail> fine_detail(const Layer& layer, const Pyramid& pyramid, std::size_t level,
+                                              IntermediateCache& cache) {
+    Hash hash;
+    hash.add(std::array<std::uint64_t, 2>{static_cast<std::uint64_t>(IntermediateKind::fine_detail), level});
+    hash.add(pyramid.hash());
+    return find_or_make<FineDetail>(cache, hash.bits128(), pyramid.shape(), [&] {
+        const auto detail = std::make_shared<FineDetail>(hash.bits128(), pyramid.shape());
+        detail->vectors = pyramid.synthesise(gains_below(pyramid.hierarchy(), level, 0));
+        parallel_for(static_cast<Index>(detail->vectors.size()),
+                     [&](Index i) { detail->vectors[i] = layer.mesh.positions[i] - detail->vectors[i]; });
+        return detail;
+    });
+}
+
+/// Puts the layer together from what was solved, with the gain and what becomes of details.
+class Finish {
+public:
+    Finish(const Layer& layer, const TransferEditOptions& options, const FollowedEdit& edit, Session& session,
+           Report& report)
+        : layer_(layer), options_(options), edit_(edit), session_(session), report_(report),
+          gain_(options.details == DetailsFollow::none ? 0 : options.gain),
+          turn_(options.details != DetailsFollow::single) {}
 
     Positions positions() {
-        const Progress whole = session_.progress;
-        gradients_ = displacement_gradients(found_.proxy());
-        feet_ = feet_of(layer_.mesh.positions, found_.faces, found_.before, whole.part(0.1, 0.4));
-        require_near(layer_, found_, nearest_tenth(feet_));
-        motion_ = motion_at(layer_.mesh.positions, feet_, found_.proxy(), gradients_);
-        session_.progress = whole.part(0.4, 0.9);
-        Positions after = moved();
-        session_.progress = whole;
-        report_.add("proxy_distance", distance(), "mesh units");
-        report_.add("folded_faces", folded(after));
-        return after;
+        if (options_.encoding == Encoding::frames) return over_level();
+        if (options_.encoding == Encoding::gradient) return gain_ == 1 && turn_ ? edit_.shape : with_details_changed();
+        return edit_.bands ? over_bases() : over_proxy();
     }
 
 private:
-    Positions moved() {
-        if (options_.encoding == Encoding::frames) return by_frames();
-        if (options_.encoding == Encoding::gradient) return by_gradients();
-        return options_.bands == 1 ? over_proxy() : over_bases();
-    }
-
-    bool other_details() const { return options_.gain != 1 || options_.details != DetailsFollow::multiresolution; }
-
-    /// RMS distance of the vertices to the proxy.
-    double distance() const {
-        return chunked_fold<Lengths>(feet_.size(), [&](Lengths& part, std::size_t i) { part.add(feet_[i].squared); })
-            .rms();
-    }
-
-    Positions by_gradients() {
-        const GradientDomainOptions how = gradient_options(static_cast<double>(layer_.mesh.positions.size()),
-                                                           static_cast<double>(found_.before.size()));
-        const Progress whole = session_.progress;
-        Positions after = gradient_domain(layer_.mesh, motion_, how, whole.part(0, other_details() ? 0.5 : 1));
-        parallel_for(static_cast<Index>(after.size()), [&](Index i) {
-            const Vec3& p = layer_.mesh.positions[i];
-            after[i] = after[i] == Vec3::Zero() ? p : Vec3(p + after[i]);
-        });
-        session_.progress = whole.part(0.5, 1);
-        if (other_details()) change_details(after);
-        session_.progress = whole;
-        return after;
-    }
-
     /// Detail d = x - base becomes gain x (what it is to be) from (I + G) d.
-    void change_details(Positions& after) {
+    Positions with_details_changed() {
         const auto pyramid = pyramid_of(layer_, options_.pyramid, session_, report_);
-        const std::size_t level = nearest_level(pyramid->hierarchy(), found_.before.size());
-        const Positions base = pyramid->synthesise(gains_below(pyramid->hierarchy(), level, 0));
-        const double gain = options_.details == DetailsFollow::none ? 0 : options_.gain;
-        const bool turn = options_.details == DetailsFollow::multiresolution;
+        const std::size_t level = nearest_level(pyramid->hierarchy(), edit_.proxy_vertices);
+        const auto detail = fine_detail(layer_, *pyramid, level, session_.intermediates);
+        Positions after(edit_.shape.size());
         parallel_for(static_cast<Index>(after.size()), [&](Index i) {
-            const Vec3 d = layer_.mesh.positions[i] - base[i], turned = motion_.gradient[i] * d;
-            after[i] += (gain - 1) * d + (turn ? gain - 1 : -1.0) * turned;
+            const Vec3 &d = detail->vectors[i], turned = edit_.gradient[i] * d;
+            after[i] = edit_.shape[i] + (gain_ - 1) * d + (turn_ ? gain_ - 1 : -1.0) * turned;
         });
+        return after;
     }
 
-    Positions by_frames() {
+    Positions over_level() {
         const auto pyramid = pyramid_of(layer_, options_.pyramid, session_, report_);
         const Hierarchy& h = pyramid->hierarchy();
-        const std::size_t level = nearest_level(h, found_.before.size());
-        const Positions coarse =
-            carried(positions_of(pyramid->scheme().synthesise(pyramid->coefficients(), down_to(level))));
-        const bool turn = options_.details == DetailsFollow::multiresolution;
-        const Field values = field_of(coarse);
+        const std::size_t level = nearest_level(h, edit_.proxy_vertices);
+        const Field values = field_of(edit_.shape);
         Synthesis how = starting_at(level, values);
-        how.gain = gains_below(h, level, turn ? options_.gain : 0);
+        how.gain = gains_below(h, level, turn_ ? gain_ : 0);
         Positions after = positions_in_input(h, pyramid->scheme().synthesise(pyramid->coefficients(), how));
-        if (options_.details == DetailsFollow::single) {
-            const Positions base = pyramid->synthesise(gains_below(h, level, 0));
-            for (std::size_t i = 0; i < after.size(); ++i)
-                after[i] += options_.gain * (layer_.mesh.positions[i] - base[i]);
-        }
+        if (!turn_) add_standing(fine_detail(layer_, *pyramid, level, session_.intermediates)->vectors, after);
         return after;
     }
 
-    /// Where the motion of the proxy takes a shape of the layer.
-    Positions carried(Positions shape) const {
-        const Array<Foot> feet = feet_of(shape, found_.faces, found_.before, session_.progress.part(0.8, 0.9));
-        const Motion motion = motion_at(shape, feet, found_.proxy(), gradients_);
-        for (std::size_t i = 0; i < shape.size(); ++i) shape[i] += motion.displacement[i];
-        return shape;
-    }
-
-    /// Every vertex over its base point on the proxy.
     Positions over_proxy() {
-        const PhongSurface before(found_.faces, found_.before), after(found_.faces, found_.after);
-        Array<Index> starts(feet_.size());
-        for (std::size_t i = 0; i < feet_.size(); ++i) starts[i] = feet_[i].face;
-        BasePoints found = base_points(before, layer_.mesh.positions, starts, session_.progress);
-        report_.add("border_points", static_cast<int>(found.border));
-        report_.add("nearest_points", static_cast<int>(found.nearest));
-        const bool turn = options_.details == DetailsFollow::multiresolution;
-        const double gain = options_.details == DetailsFollow::none ? 0 : options_.gain;
-        Positions out(feet_.size());
-        parallel_for(static_cast<Index>(out.size()), [&](Index i) {
-            BasePoint& b = found.points[i];
-            const Vec3 detail = layer_.mesh.positions[i] - before.base(b.face, b.weight);
-            b.detail *= turn ? gain : 0;
-            out[i] = after.place(b) + (turn ? 0 : gain) * detail;
-        });
-        return out;
-    }
-
-    /// How many vertices of the layer a base leaves where they are.
-    Index kept_by(const Positions& base) const {
-        Index count = 0;
-        for (std::size_t i = 0; i < base.size(); ++i) count += base[i] == layer_.mesh.positions[i];
-        return count;
-    }
-
-    /// A smooth base moves, and bands of detail follow.
-    Positions over_bases() {
-        const Progress whole = session_.progress;
-        session_.progress = whole.part(0, 0.2);
-        const auto pyramid = pyramid_of(layer_, options_.pyramid, session_, report_);
-        session_.progress = whole;
-        const Hierarchy& h = pyramid->hierarchy();
-        // A smooth base of this layer has all its vertices: it is the coarsest one, and edited by hand.
-        const bool own = found_.before.size() == layer_.mesh.positions.size() && found_.faces == layer_.mesh.faces;
-        const auto coarsest = std::clamp(own ? kept_by(found_.before) : static_cast<Index>(found_.before.size()),
-                                         h.size.back(), h.vertices());
-        const std::vector<Index> kept = kept_by_bases(*pyramid, BandLevels::ratio, options_.bands - 1, coarsest);
-        const Multiband bands =
-            multiband_of(layer_.mesh, *pyramid, kept, own ? &found_.before : nullptr, whole.part(0.2, 0.8));
-        report_bands(bands, kept, report_);
-        const Positions base = own ? found_.after : carried(bands.coarsest());
-        if (options_.details != DetailsFollow::single) {
-            const double gain = options_.details == DetailsFollow::none ? 0 : options_.gain;
-            return bands.reconstruct(base, std::vector<double>(bands.bands(), gain));
-        }
-        Positions after = base;
-        for (std::size_t i = 0; i < after.size(); ++i)
-            after[i] += options_.gain * (layer_.mesh.positions[i] - bands.coarsest()[i]);
+        report_.add("border_points", static_cast<int>(edit_.border));
+        report_.add("nearest_points", static_cast<int>(edit_.nearest));
+        Positions after = edit_.shape;
+        add_standing(turn_ ? edit_.turned : edit_.detail, after);
         return after;
     }
 
-    /// Faces whose normal points against that which the motion of the surface gives them.
-    int folded(const Positions& after) const {
-        const Faces& faces = layer_.mesh.faces;
-        const Positions& p = layer_.mesh.positions;
-        return static_cast<int>(chunked_fold<Mean>(faces.size(), [&](Mean& part, std::size_t i) {
-                                    const Face& f = faces[i];
-                                    const Mat3 g =
-                                        Mat3::Identity() +
-                                        (motion_.gradient[f[0]] + motion_.gradient[f[1]] + motion_.gradient[f[2]]) / 3;
-                                    const Vec3 expected = (g * (p[f[1]] - p[f[0]])).cross(g * (p[f[2]] - p[f[0]]));
-                                    const Vec3 n = (after[f[1]] - after[f[0]]).cross(after[f[2]] - after[f[0]]);
-                                    if (n.dot(expected) < 0) part.add(1);
-                                }).sum);
+    Positions over_bases() {
+        report_bands(*edit_.bands, edit_.kept, report_);
+        if (turn_)
+            return edit_.bands->reconstruct(layer_.mesh.faces, edit_.shape,
+                                            std::vector<double>(edit_.bands->bands(), gain_));
+        Positions after = edit_.shape;
+        const Positions& base = edit_.bands->coarsest();
+        for (std::size_t i = 0; i < after.size(); ++i) after[i] += gain_ * (layer_.mesh.positions[i] - base[i]);
+        return after;
+    }
+
+    void add_standing(const Positions& detail, Positions& after) const {
+        parallel_for(static_cast<Index>(after.size()), [&](Index i) { after[i] += gain_ * detail[i]; });
     }
 
     const Layer& layer_;
     const TransferEditOptions& options_;
-    const FoundProxy& found_;
+    const FollowedEdit& edit_;
     Session& session_;
     Report& report_;
-    Array<Mat3> gradients_;  // of the proxy
-    Array<Foot> feet_;       // of the layer's vertices
-    Motion motion_;          // of the layer's vertices
+    double gain_;
+    bool turn_;
 };
+
+/// Faces whose normal points against that which the motion of the surface gives them.
+int folded(const Mesh& mesh, const Array<Mat3>& gradient, const Positions& after) {
+    const Positions& p = mesh.positions;
+    return static_cast<int>(chunked_fold<Mean>(mesh.faces.size(), [&](Mean& part, std::size_t i) {
+                                const Face& f = mesh.faces[i];
+                                const Mat3 g =
+                                    Mat3::Identity() + (gradient[f[0]] + gradient[f[1]] + gradient[f[2]]) / 3;
+                                const Vec3 expected = (g * (p[f[1]] - p[f[0]])).cross(g * (p[f[2]] - p[f[0]]));
+                                const Vec3 n = (after[f[1]] - after[f[0]]).cross(after[f[2]] - after[f[0]]);
+                                if (n.dot(expected) < 0) part.add(1);
+                            }).sum);
+}
+
+/// The edit from the cache, or solved now. Null: nothing was changed, and details are to stay as they are.
+std::shared_ptr<const FollowedEdit> edit_of(const Inputs& inputs, const TransferEditOptions& options, Session& session,
+                                            Report& report) {
+    const ContentHash hash = followed_hash(inputs, options);
+    auto edit = std::static_pointer_cast<const FollowedEdit>(session.intermediates.find(hash));
+    std::optional<FoundProxy> found;
+    const Progress whole = session.progress;
+    if (!edit) {
+        session.progress = whole.part(0, 0.1);
+        found = find_proxy(inputs, options, session, report);
+    }
+    report.say("Following " + (edit ? edit->text : found->text) + ".");
+    report.add("way", static_cast<int>(edit ? edit->way : found->way));
+    const bool unchanged = edit ? edit->unchanged : found->unchanged;
+    if (unchanged && options.gain == 1 && options.details != DetailsFollow::none) return nullptr;
+    session.progress = whole.part(0.1, 0.7);
+    if (!edit) edit = solve_edit(inputs.current, options, *found, hash, session, report);
+    session.progress = whole.part(0.7, 1);
+    return edit;
+}
 
 }  // namespace
 
@@ -224,19 +169,17 @@ Result transfer_edit(const Inputs& inputs, const TransferEditOptions& options, S
     std::vector<double> weights = region_weights(layer, options.region);
     if (options.region.selected) soften_border(layer.mesh, options.soft_border, weights);
     const Progress whole = session.progress;
-    session.progress = whole.part(0, 0.1);
-    const FoundProxy found = find_proxy(inputs, options, session, result.report);
-    session.progress = whole.part(0.1, 0.95);
-    result.report.say("Following " + found.text + ".");
-    result.report.add("way", static_cast<int>(found.way));
-    const bool same = found.unchanged && options.gain == 1 && options.details != DetailsFollow::none;
-    Positions after = layer.mesh.positions;
-    if (same) {
+    session.progress = whole.part(0, 0.95);
+    Positions after;
+    if (const auto edit = edit_of(inputs, options, session, result.report)) {
+        after = Finish(layer, options, *edit, session, result.report).positions();
+        result.report.add("proxy_distance", edit->distance, "mesh units");
+        result.report.add("folded_faces", folded(layer.mesh, edit->gradient, after));
+    } else {
+        after = layer.mesh.positions;
         result.report.say("The proxy is the same before and after: nothing moves.");
         result.report.add("proxy_distance", 0.0, "mesh units");
         result.report.add("folded_faces", 0);
-    } else {
-        after = Transfer(layer, options, found, session, result.report).positions();
     }
     session.progress = whole;
     whole.report(0.96, "Measuring the change");
