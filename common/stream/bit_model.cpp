@@ -81,7 +81,7 @@ template <int contexts>
 BitModel<contexts>::BitModel(const std::array<int, contexts>& sizes, int sets, double rate) : rate_(rate) {
     for (int i = 0; i < contexts; ++i) slots_[i].resize(sizes[i]);
     Weights start;
-    start.fill(contexts > 1 ? 1.6 / (contexts + 1) : 1);
+    start.fill(contexts > 1 ? 1.3 / (contexts + 1) : 1);
     start[contexts] = 0;
     weights_.assign(sets, start);
 }

@@ -29,21 +29,29 @@ Bytes packed(const std::vector<std::int64_t>& numbers, int width) {
     const std::size_t size = ZSTD_compress(out.data(), out.size(), planes.data(), planes.size(), effort);
     if (ZSTD_isError(size)) throw std::bad_alloc();  // there is no other reason
     out.resize(size);
+    const bool plain = size >= planes.size();  // a few bytes: the frame would be larger than they are
     ByteWriter all;
-    all.number(size);
-    all.add(out);
+    all.number(plain ? 0 : size);
+    all.add(plain ? planes : out);
     return std::move(all.bytes());
 }
 
 std::vector<std::int64_t> unpacked(ByteReader& in, std::size_t count, int width) {
     const std::size_t size = in.number_up_to(in.left());
-    const unsigned long long claimed = ZSTD_getFrameContentSize(in.rest(), size);
-    require(claimed == static_cast<unsigned long long>(count) * width,
-            "the stream is damaged: a table has another size");
-    Bytes planes(count * width);
-    const std::size_t got = ZSTD_decompress(planes.data(), planes.size(), in.rest(), size);
-    require(!ZSTD_isError(got) && got == planes.size(), "the stream is damaged: a table cannot be unpacked");
-    in.skip(size);
+    Bytes planes;
+    if (size == 0) {
+        require(count <= in.left() / width, "the stream is damaged: a table has another size");
+        planes.assign(in.rest(), in.rest() + count * width);
+        in.skip(planes.size());
+    } else {
+        const unsigned long long claimed = ZSTD_getFrameContentSize(in.rest(), size);
+        require(claimed == static_cast<unsigned long long>(count) * width,
+                "the stream is damaged: a table has another size");
+        planes.resize(count * width);
+        const std::size_t got = ZSTD_decompress(planes.data(), planes.size(), in.rest(), size);
+        require(!ZSTD_isError(got) && got == planes.size(), "the stream is damaged: a table cannot be unpacked");
+        in.skip(size);
+    }
     std::vector<std::int64_t> out(count);
     for (std::size_t i = 0; i < count; ++i) {
         std::uint64_t x = 0;

@@ -101,7 +101,7 @@ void Decoder::take_base(ByteReader& in) {
 
 void Decoder::take_splits(ByteReader& in) {
     const std::uint64_t visits = in.number();
-    const auto bits = static_cast<std::uint32_t>(in.word(4));
+    const auto bits = static_cast<std::uint32_t>(in.word(2) << 16);
     float error = 0;
     std::memcpy(&error, &bits, sizeof error);
     BitCoder coder(in.rest(), in.left());

@@ -109,7 +109,7 @@ private:
             ++visits_;
             while (source_.size() < static_cast<std::size_t>(progress_->mesh().vertices()))
                 source_.push_back(plan_->source(static_cast<Index>(source_.size())));
-            if (coder_.bytes() >= std::max<std::size_t>(least_piece, body_.bytes().size() / 8))
+            if (coder_.bytes() >= std::max<std::size_t>(least_piece, body_.bytes().size() / 5))
                 write_splits(batch, done / progress_->batch_size());
         }
         const bool finer_next = bits_less(batch + 1) < plan_->bits_less;
@@ -122,7 +122,7 @@ private:
         ByteWriter out;
         out.number(visits_);
         visits_ = 0;
-        out.word(float_bits(error(before + done * (after - before))), 4);
+        out.word(float_bits(error(before + done * (after - before))) >> 16, 2);
         out.add(coder_.finish());
         write(Piece::splits, out.bytes());
         write_attributes();
@@ -210,7 +210,7 @@ private:
         write(Piece::face_order, order);
     }
 
-    static constexpr std::size_t least_piece = 512;
+    static constexpr std::size_t least_piece = 768;
 
     const Layer& layer_;
     const EncodeOptions& options_;

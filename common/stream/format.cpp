@@ -11,17 +11,18 @@ namespace {
 constexpr std::uint64_t most_elements = 0x7fffffff / 3;  ///< half-edges are 32-bit numbers
 /// Vertices a byte can stand for: no split takes less than a 1024th of a byte.
 constexpr std::uint64_t most_per_byte = 1024;
+constexpr double bulge_steps = 64;
 
 }  // namespace
 
 void Header::write(ByteWriter& out) const {
-    out.word(bytes, 8);
+    out.number(bytes);
     for (const Index n : {vertices, faces, base_vertices, base_faces}) out.number(n);
     out.byte(static_cast<std::uint8_t>(bits));
     out.byte(static_cast<std::uint8_t>(base_bits));
     for (int i = 0; i < 3; ++i) out.real(origin[i]);
     out.real(step);
-    out.real(bulge);
+    out.byte(static_cast<std::uint8_t>(bulge * bulge_steps));
     out.number(columns.size());
     for (const Column& c : columns) {
         out.byte(static_cast<std::uint8_t>(c.kind));
@@ -32,7 +33,7 @@ void Header::write(ByteWriter& out) const {
 }
 
 void Header::read(ByteReader& in) {
-    bytes = in.word(8);
+    bytes = in.number();
     const std::uint64_t most = std::min(most_elements, bytes > most_elements ? most_elements : bytes * most_per_byte);
     vertices = static_cast<Index>(in.number_up_to(most));
     faces = static_cast<Index>(in.number_up_to(most));
@@ -44,8 +45,8 @@ void Header::read(ByteReader& in) {
             "the stream is damaged: its number of bits");
     for (int i = 0; i < 3; ++i) origin[i] = in.real();
     step = in.real();
-    bulge = in.real();
-    require(origin.allFinite() && std::isfinite(step) && std::abs(bulge) <= 1, "the stream is damaged: its box");
+    bulge = in.byte() / bulge_steps;
+    require(origin.allFinite() && std::isfinite(step), "the stream is damaged: its box");
     columns.resize(in.number_up_to(in.left()));
     for (Column& c : columns) {
         const int kind = in.byte();

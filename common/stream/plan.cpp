@@ -39,7 +39,7 @@ HierarchyOptions plain_sets() {
 HierarchyOptions fine_sets(Index vertices) {
     HierarchyOptions o = plain_sets();
     o.length_weight = 0.03;
-    o.base_vertices = std::max<Index>(4, static_cast<Index>(vertices * 0.4));
+    o.base_vertices = std::max<Index>(4, static_cast<Index>(vertices * 0.44));
     return o;
 }
 

@@ -84,10 +84,12 @@ int open(const QString& name, MeshModel& model, const RichParameterList& list) {
 void save(const QString& name, const MeshModel& model, int mask, const RichParameterList& list,
           vcg::CallBackPos* callback) {
     AttributeRequest request;
-    request.color = mask & Mask::IOM_VERTCOLOR;
-    request.quality = mask & Mask::IOM_VERTQUALITY;
-    request.texcoord = mask & Mask::IOM_VERTTEXCOORD;
-    request.wedges = mask & Mask::IOM_WEDGTEXCOORD;
+    // Hosts ask for all that the format can hold, whether the mesh has it or not.
+    const auto wanted = [&](int bit, int element) { return (mask & bit) != 0 && model.hasDataMask(element); };
+    request.color = wanted(Mask::IOM_VERTCOLOR, MeshModel::MM_VERTCOLOR);
+    request.quality = wanted(Mask::IOM_VERTQUALITY, MeshModel::MM_VERTQUALITY);
+    request.texcoord = wanted(Mask::IOM_VERTTEXCOORD, MeshModel::MM_VERTTEXCOORD);
+    request.wedges = wanted(Mask::IOM_WEDGTEXCOORD, MeshModel::MM_WEDGTEXCOORD);
     request.custom = custom_attribute_names(model.cm);
     stream::EncodeOptions options;
     options.bits = list.getInt("bits");
