@@ -1,8 +1,9 @@
 """Fixtures that run MeshLab itself: the GUI with a pilot aboard (pilot/pilot.cpp), and meshlabserver.
 
 Debian's MeshLab 2020.09 looks for plugins only next to itself, so it runs from a private tree: copies of the two programs
-(Linux finds a program's place through links), links to their library and to one plugin that reads and writes PLY, and
-ours. Where MULTIRES_MESHLAB names the program of a later GUI, that is run instead, with our plugins in the user's folder.
+(Linux finds a program's place through links), links to their library and to three plugins (PLY files, layers,
+functions), and ours. Where MULTIRES_MESHLAB names the program of a later GUI, that is run instead, with our plugins in
+the user's folder.
 """
 
 import datetime
@@ -47,7 +48,8 @@ def add_debian_meshlab(root, plugins):
     server = pathlib.Path(shutil.which("meshlabserver", path="/usr/bin"))
     installed = next(server.parent.parent.glob("lib/*/meshlab"))
     here = root / "lib" / installed.parent.name / "meshlab"
-    link([installed / "plugins/libio_base.so", *plugins], here / "plugins")
+    own = [installed / f"plugins/lib{name}.so" for name in ("io_base", "filter_layer", "filter_func")]
+    link([*own, *plugins], here / "plugins")
     (here / "libmeshlab-common.so").symlink_to(installed / "libmeshlab-common.so")
     (root / "bin").mkdir(exist_ok=True)
     for program in (server, server.with_name("meshlab")):

@@ -118,6 +118,41 @@ def test_preview_cancel_apply(gui, mesh, tmp_path, name):
     np.testing.assert_array_equal(applied, shown)
 
 
+@pytest.mark.skipif(bool(LATER_GUI), reason="MeshLab's own filters have other names")
+def test_a_scan_follows_its_edited_proxy(gui, mesh, tmp_path):
+    """The example of docs/editing.md, MeshLab's filters the editor; previews leave the three layers as they are."""
+    names = ("start", "seen", "plain", "again", "off", "cancelled", "applied")
+    files = {name: tmp_path / f"{name}.ply" for name in names}
+    pictures = [tmp_path / f"{name}.png" for name in ("start", "seen", "cancelled")]
+    done = [("press", "Apply"), ("press", "Close")]
+    follow = [("choose", NAMES["apply_coord_multires_transfer_edit"]), ("set", "Edited proxy", "level 2_copy"),
+              ("set", "Proxy before", "level 2")]  # fmt: skip
+    gui(
+        *save(mesh, files["start"]),
+        *[("choose", NAMES["generate_multires_level"]), ("set", "Level", "2"), *done],
+        ("choose", "Duplicate Current layer"),  # which has no dialog
+        *[("choose", "Per Vertex Geometric Function"), ("set", "func z", "z + 0.2 * y^2"), *done],
+        *[("layer", "0"), ("picture", pictures[0])],
+        *[*follow, ("press", "Preview"), ("picture", pictures[1]), *save(mesh, files["seen"])],
+        *[("slide", "Detail gain", "0"), *save(mesh, files["plain"])],
+        *[("slide", "Detail gain", "25"), *save(mesh, files["again"])],  # 1
+        *[("press", "Preview"), *save(mesh, files["off"])],
+        *[("press", "Preview"), *CANCEL, ("picture", pictures[2]), *save(mesh, files["cancelled"])],
+        *[*follow, *done, *save(mesh, files["applied"])],
+        mesh=mesh,
+    )
+    start, seen, plain, again, off, cancelled, applied = (vertices(file) for file in files.values())
+    for same, as_this in ((again, seen), (applied, seen), (off, start), (cancelled, start)):
+        np.testing.assert_array_equal(same, as_this)
+    assert not np.array_equal(plain, seen)
+    moved = 0.2 * start[:, 1:2] ** 2 * [0, 0, 1]
+    assert np.linalg.norm(seen - start - moved) < 0.01 * np.linalg.norm(moved)
+
+    before, shown, after = map(viewport, pictures)
+    np.testing.assert_array_equal(after, before)
+    assert not np.array_equal(shown, before)
+
+
 def test_the_original_comes_back_after_all_dialogs(gui, mesh, tmp_path):
     files = [tmp_path / f"{when}.ply" for when in ("start", "changed", "back")]
     commands = save(mesh, files[0])

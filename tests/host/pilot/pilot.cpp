@@ -15,12 +15,14 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QMouseEvent>
 #include <QPixmap>
 #include <QScreen>
 #include <QSlider>
 #include <QTextStream>
 #include <QThread>
 #include <QTimer>
+#include <QTreeWidget>
 
 #include <cstdio>
 #include <cstdlib>
@@ -43,9 +45,8 @@ public:
         if (!file.open(QIODevice::ReadOnly)) fail("cannot read the commands");
         script_ = QJsonDocument::fromJson(file.readAll()).array();
         if (script_.isEmpty()) fail("no commands");
-        connect(&timer_, &QTimer::timeout, this, &Pilot::tick);
-        timer_.start(20);
         waiting_.start();
+        tick();
     }
 
 private:
@@ -59,6 +60,7 @@ private:
             {"press", [this] { return press(word(1)); }},             // BUTTON of the foremost dialog
             {"slide", [this] { return slide(word(1), word(2)); }},    // LABEL, steps of 0..100; prints the time it took
             {"set", [this] { return set(word(1), word(2)); }},        // LABEL, text or name of a choice
+            {"layer", [this] { return choose_layer(word(1)); }},      // NUMBER in the list of layers: becomes current
             {"copy", [this] { return copy(word(1), word(2)); }},      // FROM, TO
             {"picture", [this] { return picture(word(1)); }},         // FILE: the screen, when it has come to rest
             {"dialog", [this] { return describe_dialog(word(1)); }},  // FILE: the filter's dialog, likewise
@@ -76,13 +78,15 @@ private:
     }
 
     void tick() {
+        QTimer::singleShot(20, this, &Pilot::tick);  // not a timer that repeats, which would rest in a message's loop
+        const auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+        if (box && busy_) fail("there is a message: " + box->text());  // the command would never return
         // Events get through while meshes are loaded at the start (the loop level tells) and while filters run and
         // files are written.
         if (busy_ || (acting_ && !QApplication::activeModalWidget()) || QThread::currentThread()->loopLevel() < 1)
             return;
         if (next_ == script_.size()) std::_Exit(0);  // a question on screen would keep quit() waiting
         const QString verb = word(0);
-        const auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
         if (box && verb != "press") fail("there is a message: " + box->text());
         if (waiting_.elapsed() > 120000) fail("cannot " + verb + " " + word(1));
         if (QApplication::activeModalWidget() && verb != "press") return;
@@ -226,6 +230,20 @@ private:
         return true;
     }
 
+    bool choose_layer(const QString& number) {
+        const QMainWindow* window = main_window();
+        const auto* list = window ? window->findChild<QTreeWidget*>("meshTreeWidget") : nullptr;
+        const auto found = list ? list->findItems(number, Qt::MatchExactly, 1) : QList<QTreeWidgetItem*>();
+        if (found.isEmpty()) return false;
+        const int row = list->visualItemRect(found.front()).center().y();
+        const QPoint place(list->columnViewportPosition(1) + list->columnWidth(1) / 2, row);
+        for (const auto type : {QEvent::MouseButtonPress, QEvent::MouseButtonRelease}) {
+            QMouseEvent event(type, place, Qt::LeftButton, Qt::LeftButton, Qt::NoModifier);
+            QApplication::sendEvent(list->viewport(), &event);
+        }
+        return true;
+    }
+
     bool copy(const QString& from, const QString& to) {
         if (!QFile::copy(from, to)) fail("cannot copy " + from + " to " + to);
         return true;
@@ -267,7 +285,6 @@ private:
         return true;
     }
 
-    QTimer timer_;
     QElapsedTimer waiting_;
     QJsonArray script_;
     int next_ = 0;
