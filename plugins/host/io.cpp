@@ -1,10 +1,12 @@
 #include "host/io.h"
 
+#include "base/progress.h"
 #include "vcg/conversion.h"
 
 #include <wrap/io_trimesh/io_mask.h>
 
 #include <QFile>
+#include <QSaveFile>
 
 #include <algorithm>
 
@@ -96,12 +98,12 @@ void save(const QString& name, const MeshModel& model, int mask, const RichParam
     options.exact = list.getBool("exact");
     options.keep_order = list.getBool("keep_order");
     const stream::Bytes bytes = stream::encode(to_layer(model.cm, request).layer, options, [&](double done) {
-        if (callback) callback(static_cast<int>(100 * done), "Saving");
+        if (callback && !callback(static_cast<int>(100 * done), "Saving")) throw Cancelled();
     });
-    QFile file(name);
+    QSaveFile file(name);  // what was there stays until the new file is whole
     require(file.open(QIODevice::WriteOnly), "the file cannot be written");
     const auto size = static_cast<qint64>(bytes.size());
-    require(file.write(reinterpret_cast<const char*>(bytes.data()), size) == size && file.flush(),
+    require(file.write(reinterpret_cast<const char*>(bytes.data()), size) == size && file.commit(),
             "the file cannot be written");
 }
 

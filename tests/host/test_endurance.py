@@ -87,10 +87,11 @@ def test_too_little_address_space_is_an_error_that_changes_nothing():
 
 
 def test_no_filter_opens_a_file():
-    """Meshes and scripts of strangers can make a filter fail, no more: nothing in our sources can touch a file."""
+    """Meshes and scripts of strangers can make a filter fail, no more: nothing in a filter can touch a file."""
     sources = [p for folder in ("common", "plugins") for p in (ROOT / folder).rglob("*") if p.suffix in (".h", ".cpp")]
     assert len(sources) > 50
     files = re.compile(r"<(fstream|filesystem|cstdio|QFile|QDir|QSaveFile|QTemporaryFile|fcntl\.h)>|\b(fopen|system|popen)\(")
     users = {p.relative_to(ROOT).as_posix(): set(files.findall(p.read_text())) for p in sources}
     with_files = {name: {"".join(hit) for hit in found} for name, found in users.items() if found}
+    assert with_files.pop("plugins/host/io.cpp") == {"QFile", "QSaveFile"}  # opens and saves what MeshLab tells it to
     assert all(found == {"cstdio"} for found in with_files.values()), with_files  # for snprintf

@@ -81,6 +81,12 @@ def test_what_cannot_be_opened_says_why(multires, scan, tmp_path):
         multires.open_stream(ms, other)
     with pytest.raises(pymeshlab.PyMeshLabException, match="bits must be between 1 and 24"):
         multires.save_stream(ms, other, bits=25)
+    with pytest.raises(pymeshlab.PyMeshLabException, match="cannot be written"):
+        multires.save_stream(ms, tmp_path / "no folder" / "scan.mrm")
+    before = path.read_bytes()
+    with pytest.raises(pymeshlab.PyMeshLabException, match="bits must be"):
+        multires.save_stream(ms, path, bits=0)
+    assert path.read_bytes() == before
     with pytest.raises(ValueError, match="must end in .mrm"):
         multires.save_stream(ms, tmp_path / "scan.ply")
 
