@@ -148,6 +148,20 @@ def test_filter_runs_in_meshlabserver(server, meshes, row):
     assert np.isfinite(new.vertex_matrix()).all()
 
 
+def test_a_stream_is_saved_and_opened(run, meshes, tmp_path):
+    mesh, stream, back = meshes / "torus.ply", tmp_path / "torus.mrm", tmp_path / "back.ply"
+    saved = run("meshlabserver", "-i", mesh, "-o", stream)
+    assert saved.returncode == 0, saved.stdout
+    opened = run("meshlabserver", "-i", stream, "-o", back)
+    assert opened.returncode == 0, opened.stdout
+    before, after = load(mesh), load(back)
+    assert after.face_number() == before.face_number()
+    box = before.bounding_box()
+    step = max(box.dim_x(), box.dim_y(), box.dim_z()) / 2**12
+    apart = np.abs(before.vertex_matrix()[:, None] - after.vertex_matrix()[None]).max(axis=2)
+    assert apart.min(axis=1).max() <= step and apart.min(axis=0).max() <= step
+
+
 def with_values(name, **values):
     """A filter of the tables and its parameters, some of them not at their defaults."""
     row = next(f for f in FILTERS if f["python_name"].endswith(name))
