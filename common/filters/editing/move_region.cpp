@@ -89,7 +89,7 @@ std::shared_ptr<const PreparedRegion> region_of(const Layer& layer, const MoveRe
                                                 Session& session) {
     const ContentHash hash = region_hash(layer, o, details), shape = shape_hash(layer.mesh.positions, layer.mesh.faces);
     return find_or_make<PreparedRegion>(session.intermediates, hash, shape, [&] {
-        const auto region = std::make_shared<PreparedRegion>(hash, shape);
+        auto region = std::make_shared<PreparedRegion>(hash, shape);
         const Progress whole = session.progress;
         region->falloff = falloff_of(layer, o.between, whole.part(0, 0.5));
         const bool between =

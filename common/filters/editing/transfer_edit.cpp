@@ -44,7 +44,7 @@ std::shared_ptr<const FineDetail> fine_detail(const Layer& layer, const Pyramid&
     hash.add(std::array<std::uint64_t, 2>{static_cast<std::uint64_t>(IntermediateKind::fine_detail), level});
     hash.add(pyramid.hash());
     return find_or_make<FineDetail>(cache, hash.bits128(), pyramid.shape(), [&] {
-        const auto detail = std::make_shared<FineDetail>(hash.bits128(), pyramid.shape());
+        auto detail = std::make_shared<FineDetail>(hash.bits128(), pyramid.shape());
         detail->vectors = pyramid.synthesise(gains_below(pyramid.hierarchy(), level, 0));
         parallel_for(static_cast<Index>(detail->vectors.size()),
                      [&](Index i) { detail->vectors[i] = layer.mesh.positions[i] - detail->vectors[i]; });
