@@ -68,17 +68,24 @@ class SchemeWith : public testing::TestWithParam<Operator> {};
 
 }  // namespace
 
+#ifdef MULTIRES_SANITIZED
+constexpr int every = 7;  // which has no factor in common with the numbers of choices
+#else
+constexpr int every = 1;
+#endif
+
 TEST_P(SchemeWith, IsInvertedExactly) {
     int cases = 0;
     for (std::size_t m = 0; m < every_class().size(); ++m)
         for (std::size_t g = 0; g < groupings().size(); ++g)
             for (const int scheme : every_scheme())
                 for (const double presmooth : {0.0, 0.5, 1.0}) {
+                    if (++cases % every != 0) continue;
                     SCOPED_TRACE(every_class()[m].first + ", " + groupings()[g].first + ", " + scheme_name(scheme) +
                                  ", presmooth " + std::to_string(presmooth));
                     const Hierarchy& h = hierarchy(m, g);
                     const auto made = make_scheme(h, options_of(scheme, GetParam(), presmooth));
-                    const int more = ++cases % 50 == 0 ? 17 : cases % 7;
+                    const int more = cases % 50 == 0 ? 17 : cases % 6;
                     const Field f = with_random_channels(field_of(h.positions), more, cases);
                     const Field back = made->synthesise(made->analyse(f));
                     EXPECT_LE(largest_difference(back, f), 1e-12 * bounding_box(h.positions).diagonal());
