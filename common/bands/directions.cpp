@@ -3,6 +3,7 @@
 #include "bands/slide.h"
 #include "bands/spline.h"
 #include "base/parallel.h"
+#include "measure/vertex_normals.h"
 
 #include <algorithm>
 #include <cmath>

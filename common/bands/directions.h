@@ -5,9 +5,6 @@
 
 namespace multires {
 
-/// The normal of a face, as long as twice its area.
-inline Vec3 area_vector(const Face& f, const Positions& p) { return (p[f[1]] - p[f[0]]).cross(p[f[2]] - p[f[0]]); }
-
 /// Unit normals of the vertices up to their sign, whatever the orientation of the faces: area vectors of the faces of
 /// each vertex, turned to agree with those before them. Zero for vertices without area.
 /// @returns  #V by 3

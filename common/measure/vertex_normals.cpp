@@ -5,8 +5,7 @@ namespace multires {
 Array<Vec3> vertex_area_vectors(const Faces& faces, const Positions& positions) {
     Array<Vec3> sum(positions.size(), Vec3::Zero());
     for (const Face& f : faces) {
-        const Vec3& a = positions[f[0]];
-        const Vec3 n = (positions[f[1]] - a).cross(positions[f[2]] - a);
+        const Vec3 n = area_vector(f, positions);
         for (const Index v : f) sum[v] += n;
     }
     return sum;

@@ -6,6 +6,7 @@
 #include "editing/soft_border.h"
 #include "filters/editing/bands.h"
 #include "filters/editing/followed.h"
+#include "measure/vertex_normals.h"
 #include "mesh/validation.h"
 #include "pyramid/pyramid.h"
 
@@ -133,8 +134,7 @@ int folded(const Mesh& mesh, const Array<Mat3>& gradient, const Positions& after
                                 const Mat3 g =
                                     Mat3::Identity() + (gradient[f[0]] + gradient[f[1]] + gradient[f[2]]) / 3;
                                 const Vec3 expected = (g * (p[f[1]] - p[f[0]])).cross(g * (p[f[2]] - p[f[0]]));
-                                const Vec3 n = (after[f[1]] - after[f[0]]).cross(after[f[2]] - after[f[0]]);
-                                if (n.dot(expected) < 0) part.add(1);
+                                if (area_vector(f, after).dot(expected) < 0) part.add(1);
                             }).sum);
 }
 

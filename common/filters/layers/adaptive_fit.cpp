@@ -35,8 +35,7 @@ Vec3 barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
 std::vector<double> vertex_areas(const Mesh& mesh) {
     std::vector<double> area(mesh.positions.size(), 0);
     for (const Face& f : mesh.faces) {
-        const Vec3& a = mesh.positions[f[0]];
-        const double share = (mesh.positions[f[1]] - a).cross(mesh.positions[f[2]] - a).norm() / 6;
+        const double share = area_vector(f, mesh.positions).norm() / 6;
         for (const Index v : f) area[v] += share;
     }
     return area;
@@ -68,7 +67,7 @@ std::vector<Foot> feet_of(const Mesh& input, const std::vector<double>& area, co
             const SurfaceTree::Hit hit = tree.closest(input.positions[i], hint);
             hint = hit.face;
             const Face& f = faces[hit.face];
-            const Vec3 n = (at[f[1]] - at[f[0]]).cross(at[f[2]] - at[f[0]]);
+            const Vec3 n = area_vector(f, at);
             const double length = n.norm();
             if (!(length > 0)) continue;
             Foot& foot = feet[i];
@@ -171,7 +170,7 @@ Positions without_flips(const Faces& faces, const Positions& before, Positions m
         again = false;
         std::vector<std::uint8_t> bad(before.size(), 0);
         for (const Face& f : faces) {
-            const Vec3 n = (before[f[1]] - before[f[0]]).cross(before[f[2]] - before[f[0]]);
+            const Vec3 n = area_vector(f, before);
             const Vec3 a = before[f[0]] + move[f[0]];
             const Vec3 m = (before[f[1]] + move[f[1]] - a).cross(before[f[2]] + move[f[2]] - a);
             const double nn = n.norm(), mm = m.norm();

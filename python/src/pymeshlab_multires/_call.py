@@ -6,7 +6,7 @@ import functools
 import importlib.metadata
 import pathlib
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import Any, ParamSpec, Protocol, TypeAlias, TypeVar
 
 import numpy as np
@@ -57,6 +57,16 @@ def load_plugins() -> None:
                 raise ImportError(f"{plugin}: {error}") from error
 
 
+@contextlib.contextmanager
+def forgetting_failures() -> Iterator[None]:
+    """Around calls of pymeshlab: lets an exception through, and forgets the document it came from."""
+    try:
+        yield
+    except BaseException:
+        forget_failed_document()
+        raise
+
+
 def forget_failed_document() -> None:
     """Makes pymeshlab forget the document on which a filter failed.
 
@@ -98,11 +108,8 @@ def apply(kind: type[Report], name: str, ms: MeshSet, pyramid: Any = None, **par
     parameters |= dataclasses.asdict(pyramid) if pyramid is not None else {}
     given = {key: np.array(value) if isinstance(value, tuple) else value
              for key, value in parameters.items() if value is not None}  # fmt: skip
-    try:
+    with forgetting_failures():
         returned = dict(ms.apply_filter(name, **given))
-    except BaseException:
-        forget_failed_document()
-        raise
     fields = {field.name: field for field in dataclasses.fields(kind)}  # type: ignore[arg-type]
     by_attribute = [n for n, field in fields.items() if field.default_factory is not dataclasses.MISSING]
     values: dict[str, Any] = {n: {} for n in by_attribute}

@@ -9,7 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 import numpy.typing as npt
 
-from ._call import forget_failed_document
+from ._call import forgetting_failures
 
 KINDS = ["color", "quality", "texcoord", "scalar", "point"]
 
@@ -29,7 +29,8 @@ def save_stream(ms: Files, file: str | os.PathLike[str], *, bits: int = 12, exac
     exact: coordinates come back bit for bit once the whole file is read
     keep_order: vertices and faces come back in their order
     """
-    _guarded(ms.save_current_mesh, str(_mrm(file)), bits=bits, exact=exact, keep_order=keep_order)
+    with forgetting_failures():
+        ms.save_current_mesh(str(_mrm(file)), bits=bits, exact=exact, keep_order=keep_order)
 
 
 def open_stream(ms: Files, file: str | os.PathLike[str], *, max_vertices: int = 0, max_bytes: int = 0,
@@ -38,7 +39,8 @@ def open_stream(ms: Files, file: str | os.PathLike[str], *, max_vertices: int = 
 
     max_error: RMS distance from the whole mesh, as estimated when it was saved, in units of the mesh
     """
-    _guarded(ms.load_new_mesh, str(_mrm(file)), max_vertices=max_vertices, max_bytes=max_bytes, max_error=max_error)
+    with forgetting_failures():
+        ms.load_new_mesh(str(_mrm(file)), max_vertices=max_vertices, max_bytes=max_bytes, max_error=max_error)
 
 
 def _mrm(file: str | os.PathLike[str]) -> pathlib.Path:
@@ -46,14 +48,6 @@ def _mrm(file: str | os.PathLike[str]) -> pathlib.Path:
     if path.suffix.lower() != ".mrm":
         raise ValueError(f"{path}: pymeshlab goes by the name, which must end in .mrm")
     return path
-
-
-def _guarded(function: Any, *arguments: Any, **parameters: Any) -> None:
-    try:
-        function(*arguments, **parameters)
-    except BaseException:
-        forget_failed_document()
-        raise
 
 
 class StreamError(ValueError):
