@@ -15,10 +15,10 @@
 namespace multires {
 namespace {
 
-constexpr double low_enough = 0.05;  ///< drift that is left alone, of the RMS way along the normals
-constexpr double small_way = 0.1;    ///< what a vertex may be off its normal in the result, of the same
-constexpr double least_cosine = 0.5;
-constexpr double least_gain = 1e-3;  ///< of the sum
+constexpr double low_enough = 0.05;   ///< drift that is left alone, of the RMS way along the normals
+constexpr double small_way = 0.1;     ///< what a vertex may be off its normal in the result, of the same
+constexpr double least_cosine = 0.5;  ///< between faces and the low-passed surface, and between neighbours
+constexpr double least_gain = 1e-3;   ///< of the sum
 constexpr int most_rounds = 15;
 constexpr Index most_faces = 500;  ///< around a vertex: others stay, count for nothing, and no walk goes over them
 
@@ -149,8 +149,7 @@ private:
         const Vec3 along = way - normal.dot(way) * normal;
         const Vec3 from = moved_[v];
         const Place before_it = place_[v];
-        cosine_.clear();
-        for (const Index f : incident_[v]) cosine_.push_back(cosine(f));
+        turns_around(v, turn_before_);
         const double before = cost_around(v);
         for (const double share : {1.0, 0.5, 0.2}) {
             moved_[v] = from - share * along;
@@ -166,15 +165,37 @@ private:
         if (place_[v].vertex < 0) place_[v] = ground_.at(moved_[v], v);
         return place_[v];
     }
+    /// Whether no face around a vertex leans too far, unless it did before.
     bool faces_lie(Index v) {
-        const auto faces = incident_[v];
-        for (Index k = 0; k < faces.size(); ++k)
-            if (const double c = cosine(faces[k]); c < least_cosine && c < cosine_[k] - 1e-9) return false;
+        turns_around(v, turn_);
+        for (std::size_t k = 0; k < turn_.size(); ++k)
+            if (turn_[k] < least_cosine && turn_[k] < turn_before_[k] - 1e-9) return false;
         return true;
     }
-    Vec3 ground_of(const Face& f) { return place(f[0]).normal + place(f[1]).normal + place(f[2]).normal; }
-    double cosine(Index i) {
-        const Vec3 a = area_vector(mesh_.faces[i], moved_), b = ground_of(mesh_.faces[i]);
+    /// Cosines between the faces around a vertex and the low-passed surface there, and their neighbours.
+    void turns_around(Index v, std::vector<double>& turn) {
+        turn.clear();
+        for (const Index i : incident_[v]) {
+            const Face& f = mesh_.faces[i];
+            const Vec3 area = area_vector(f, moved_);
+            turn.push_back(cosine(area, place(f[0]).normal + place(f[1]).normal + place(f[2]).normal));
+            for (int k = 0; k < 3; ++k)
+                if (const Index j = across(i, f[k], f[(k + 1) % 3]); j >= 0)
+                    turn.push_back(cosine(area, area_vector(mesh_.faces[j], moved_)));
+        }
+    }
+    /// The face on the other side of an edge a, b; -1 if there is not exactly one.
+    Index across(Index face, Index a, Index b) const {
+        Index found = -1;
+        for (const Index i : incident_[a]) {
+            const Face& f = mesh_.faces[i];
+            if (i == face || std::find(f.begin(), f.end(), b) == f.end()) continue;
+            if (found >= 0) return -1;
+            found = i;
+        }
+        return found;
+    }
+    static double cosine(const Vec3& a, const Vec3& b) {
         const double lengths = a.norm() * b.norm();
         return lengths > 0 ? a.dot(b) / lengths : -2;
     }
@@ -203,7 +224,7 @@ private:
     Array<Place> place_;
     Array<double> area_;
     Array<std::uint8_t> counts_;
-    std::vector<double> cosine_;  ///< of the faces around the vertex at hand, before its step
+    std::vector<double> turn_before_, turn_;  ///< around the vertex at hand, before its step and after
 };
 
 }  // namespace

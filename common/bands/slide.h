@@ -10,9 +10,9 @@ namespace multires {
 ///
 ///     area (|way across the normal of the result|^2 + |way across the normal of the low-passed surface there|^2)
 ///
-/// and no face turns by more than 60 degrees against that surface, or farther than it has. The second normal keeps
-/// vertices from lessening the first by crumpling the result. Vertices whose faces do not agree on a side stay. Up to
-/// 15 rounds over those whose surroundings moved.
+/// and no face leans by more than 60 degrees against that surface or a neighbour, or farther than it has. The second
+/// normal keeps vertices from lessening the first by crumpling the result. Vertices whose faces do not agree on a side
+/// stay. Up to 15 rounds over those whose surroundings moved.
 /// @param neighbours  of the mesh: offset and column
 /// @param smooth      #V by 3, the low-passed surface
 /// @param moved       #V by 3, near it

@@ -3,12 +3,15 @@
 #include "bands/spline.h"
 #include "base/angles.h"
 #include "fixtures.h"
+#include "measure/vertex_normals.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace multires {
 
@@ -35,6 +38,20 @@ struct Slid {
         return moved;
     }
 };
+
+/// Edges whose two faces lean by more than 60 degrees.
+int sharp_edges(const Faces& faces, const Positions& p) {
+    std::map<std::pair<Index, Index>, Vec3> first;
+    int count = 0;
+    for (const Face& f : faces)
+        for (int k = 0; k < 3; ++k) {
+            const Vec3 normal = area_vector(f, p).normalized();
+            const auto edge = std::minmax({f[k], f[(k + 1) % 3]});
+            const auto [other, fresh] = first.emplace(edge, normal);
+            count += !fresh && other->second.dot(normal) < 0.5;
+        }
+    return count;
+}
 
 }  // namespace
 
@@ -68,7 +85,7 @@ TEST(Slide, LittleDriftIsLeftAlone) {
     EXPECT_EQ(moved, slid.feet);
 }
 
-TEST(Slide, FingersThatACutoffTakesAwayDriftLess) {
+TEST(Slide, FingersThatACutoffTakesAwayDriftLessAndDoNotCrease) {
     Mesh mesh = shapes::irregular_sphere(8000, {0.3, 0.3, 5});
     const std::array<Vec3, 3> tips{Vec3(1, 0, 0), Vec3(-0.5, 0.8, 0.3).normalized(),
                                    Vec3(-0.3, -0.6, -0.7).normalized()};
@@ -80,7 +97,8 @@ TEST(Slide, FingersThatACutoffTakesAwayDriftLess) {
     const Spline spline(mesh, {}, {});
     const Positions after = spline.low_pass(mesh, {LowPassOrder::second, 30 * spline.mean_edge()}, "cutoff", {});
     const Drift d = drift(mesh.faces, mesh.positions, after);
-    EXPECT_LT(d.tangential_rms, 0.12 * d.normal_rms);  // 0.17 without slide_back()
+    EXPECT_LT(d.tangential_rms, 0.13 * d.normal_rms);  // 0.17 without slide_back()
+    EXPECT_LE(sharp_edges(mesh.faces, after), 50);     // 58 without, 67 if only folds are avoided
 }
 
 }  // namespace multires
