@@ -1,4 +1,5 @@
-"""Writes what follows from the filter tables: the parameter reference, the typed Python functions, the .mlx examples.
+"""Writes what follows from the filter tables: the parameter reference, the typed Python functions, the .mlx examples,
+and docs/filters.json, the description for a port to MeshLab's successor.
 
     .venv/bin/python tools/generate.py [--build BUILD] [--check]
 
@@ -12,6 +13,7 @@ import sys
 import xml.etree.ElementTree as ET
 
 from filter_tables import allowed, default_words, function_name, number, purpose_and_sources, tables
+from generate_filters_json import filters_json
 from generate_python import python_module
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -166,7 +168,7 @@ def examples_readme():
 def files(rows):
     """Path in the repository -> text, of everything that is generated."""
     out = {"docs/parameters.md": reference(rows), "python/src/pymeshlab_multires/_filters.py": python_module(rows),
-           "examples/README.md": examples_readme()}  # fmt: skip
+           "docs/filters.json": filters_json(rows), "examples/README.md": examples_readme()}  # fmt: skip
     return out | {f"examples/{name}.mlx": script(rows, steps) for name, (_, steps) in EXAMPLES.items()}
 
 

@@ -77,8 +77,8 @@ void print_parameters(const Filter& filter, const multires::Layer& layer) {
     for (const Parameter& p : call.parameters) {
         std::cout << comma << "\n      {\"name\": " << quoted(p.name) << ", " << type_and_value(p) << names_or_range(p)
                   << ", \"derived\": " << truth(p.hint.derived) << ", \"advanced\": " << truth(p.hint.advanced)
-                  << ",\n       \"label\": " << quoted(p.hint.label) << ", \"tooltip\": " << quoted(p.hint.tooltip)
-                  << "}";
+                  << ", \"group\": " << quoted(p.hint.group) << ",\n       \"label\": " << quoted(p.hint.label)
+                  << ", \"tooltip\": " << quoted(p.hint.tooltip) << "}";
         comma = ",";
     }
 }
@@ -112,8 +112,8 @@ int main() {
         for (const Filter& filter : plugin->filters) {
             std::cout << comma << "\n  {\"plugin\": " << quoted(plugin->name) << ", \"name\": " << quoted(filter.name)
                       << ", \"python_name\": " << quoted(filter.python_name)
-                      << ",\n    \"info\": " << quoted(filter.info) << ",\n    \"changes\": " << filter.changes
-                      << ", \"parameters\": [";
+                      << ",\n    \"info\": " << quoted(filter.info) << ",\n    \"needs\": " << filter.needs
+                      << ", \"changes\": " << filter.changes << ", \"parameters\": [";
             print_parameters(filter, layer);
             std::cout << "],\n    \"returns\": [";
             print_returns(filter);
