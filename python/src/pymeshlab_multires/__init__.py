@@ -19,8 +19,9 @@ from ._filters import __all__ as _names
 from ._plot import plot_roughness, plot_spectrum
 from ._stream import Stream, StreamError, StreamMesh, open_stream, save_stream
 from ._stream_page import stream_page
+from ._view import Viewer, view
 
-__all__ = [*_names, "EqualizeReport", "Stream", "StreamError", "StreamMesh", "equalize", "open_stream",
-           "plot_roughness", "plot_spectrum", "save_stream", "stream_page"]  # fmt: skip
+__all__ = [*_names, "EqualizeReport", "Stream", "StreamError", "StreamMesh", "Viewer", "equalize", "open_stream",
+           "plot_roughness", "plot_spectrum", "save_stream", "stream_page", "view"]  # fmt: skip
 
 _call.load_plugins()
