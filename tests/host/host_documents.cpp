@@ -122,7 +122,10 @@ void fill(MeshDocument& document, const Action& action, Content content) {
     if (grid) edited.faces.erase(edited.faces.begin() + 7), edited.positions.pop_back();  // as it is deleted below
     for (Vec3& p : edited.positions) p.x() += 0.01 * p.y() * p.y();
     MeshModel& another = add(document, edited, "another");
-    if (action.name == "transfer_coord_multires_detail") another.cm.Tr.SetTranslate(1, 2, 3.01);  // must be near
+    const bool near =  // it must be, or finding nearest points takes minutes
+        action.name == "transfer_coord_multires_detail" ||
+        (large && action.name == "apply_coord_multires_transfer_edit");
+    if (near) another.cm.Tr.SetTranslate(1, 2, 3.01);
     MeshModel& model = add(document, mesh, "mesh");
     if (content != Content::bare) enrich(model);
     CMeshO& m = model.cm;
