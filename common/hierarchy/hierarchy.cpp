@@ -4,6 +4,7 @@
 #include "hierarchy/independent_sets.h"
 #include "hierarchy/renumber.h"
 #include "hierarchy/sequential.h"
+#include "hierarchy/simplify.h"
 #include "mesh/adjacency.h"
 
 #include <algorithm>
@@ -18,14 +19,21 @@ namespace {
 struct Normalised {
     Positions positions;
     double diagonal = 1;  ///< of the mesh's box; 1 if that is a point
+    Vec3 centre{0, 0, 0};
 
     explicit Normalised(const Positions& input) : positions(input.size()) {
         Vec3 lo = input.empty() ? Vec3(0, 0, 0) : input[0], hi = lo;
         for (const Vec3& p : input) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
-        const Vec3 centre = lo + (hi - lo) / 2;
+        centre = lo + (hi - lo) / 2;
         if ((hi - lo).norm() > 0) diagonal = (hi - lo).norm();
-        const double scale = 1 / diagonal;
-        parallel_for(static_cast<Index>(input.size()), [&](Index i) { positions[i] = (input[i] - centre) * scale; });
+        parallel_for(static_cast<Index>(input.size()), [&](Index i) { positions[i] = normalised(input[i]); });
+    }
+
+    Vec3 normalised(const Vec3& p) const { return (p - centre) * (1 / diagonal); }
+
+    /// The point of the input at a normalised one: `before`, bit for bit, if it was never moved.
+    Vec3 unless_still(const Vec3& before, const Vec3& now) const {
+        return now == normalised(before) ? before : Vec3(now * diagonal + centre);
     }
 };
 
@@ -105,20 +113,68 @@ bool jumps_about(const Rings& rings) {
     return 10 * far > static_cast<std::int64_t>(rings.neighbor.size());
 }
 
-/// independent_sets() and assemble(), in an order of vertices that is kind to caches.
-Hierarchy by_sets(Rings rings, Positions positions, const HierarchyOptions& options, const Tick& tick) {
-    if (!jumps_about(rings))
-        return assemble(independent_sets(std::move(rings), std::move(positions), options, tick), options);
-    const Array<Index> order = breadth_first_order(rings);
+/// Puts the vertices into an order that is kind to caches, if theirs is not.
+/// @return order[new number] = number of the input; empty: nothing was done
+Array<Index> sort_for_caches(Rings& rings, Positions& positions) {
+    if (!jumps_about(rings)) return {};
+    Array<Index> order = breadth_first_order(rings);
     const Index n = rings.rows();
     Array<Index> place(n);
     Positions moved(n);
     for (Index i = 0; i < n; ++i) place[order[i]] = i;
     parallel_for(n, [&](Index i) { moved[i] = positions[order[i]]; });
+    positions = std::move(moved);
     rings = renumbered(rings, order, place, n);
-    Hierarchy h = assemble(independent_sets(std::move(rings), std::move(moved), options, tick), options);
-    for (Index& v : h.order) v = order[v];
+    return order;
+}
+
+/// independent_sets() and assemble(), in an order of vertices that is kind to caches.
+Hierarchy by_sets(Rings rings, Positions positions, const HierarchyOptions& options, const Tick& tick) {
+    const Array<Index> order = sort_for_caches(rings, positions);
+    Hierarchy h = assemble(independent_sets(std::move(rings), std::move(positions), options, tick), options);
+    if (!order.empty())
+        for (Index& v : h.order) v = order[v];
     return h;
+}
+
+/// Which of the vertices left after the last step each one is, or ~ which it has gone to.
+Array<Index> what_became(const std::vector<Step>& steps) {
+    Array<Index> now = steps.back().code;
+    for (std::size_t s = steps.size() - 1; s-- > 0;) {
+        const Step& step = steps[s];
+        const Array<Index> after = std::move(now);
+        now = Array<Index>(step.code.size());
+        parallel_for(static_cast<Index>(now.size()), [&](Index i) {
+            const Index code = step.code[i];
+            const Index to = after[code >= 0 ? code : step.code[step.parent[~code]]];
+            now[i] = code < 0 && to >= 0 ? ~to : to;
+        });
+    }
+    return now;
+}
+
+/// The mesh of what is left.
+/// @param became  #V of the input, see what_became()
+/// @param left    their positions
+Simplified mesh_of_rest(const Mesh& mesh, const Array<Index>& became, const Normalised& left) {
+    Simplified out;
+    Array<Index> index(left.positions.size());
+    for (std::size_t v = 0; v < became.size(); ++v) {
+        if (became[v] < 0) continue;
+        index[became[v]] = static_cast<Index>(out.source_vertex.size());
+        out.source_vertex.push_back(static_cast<Index>(v));
+        out.positions.push_back(left.unless_still(mesh.positions[v], left.positions[became[v]]));
+    }
+    const auto corner = [&](Index v) { return index[became[v] >= 0 ? became[v] : ~became[v]]; };
+    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+        const Face& was = mesh.faces[f];
+        const Face g = {corner(was[0]), corner(was[1]), corner(was[2])};
+        const bool degenerate = g[0] == g[1] || g[1] == g[2] || g[2] == g[0];
+        if (degenerate && (became[was[0]] < 0 || became[was[1]] < 0 || became[was[2]] < 0)) continue;
+        out.faces.push_back(g);
+        out.source_face.push_back(static_cast<Index>(f));
+    }
+    return out;
 }
 
 }  // namespace
@@ -136,6 +192,24 @@ Hierarchy build_hierarchy(Rings rings, const Positions& positions, const Hierarc
     h.positions.resize(positions.size());
     parallel_for(h.vertices(), [&](Index place) { h.positions[place] = positions[h.order[place]]; });
     return h;
+}
+
+Simplified simplify(const Mesh& mesh, Rings rings, const HierarchyOptions& options, const SimplifyGoal& goal,
+                    const Tick& tick) {
+    HierarchyOptions o = options;
+    o.memoryless = true;
+    o.length_weight = 0;
+    o.split = Split::quadric;
+    o.mean_edges = false;
+    o.base_vertices = goal.vertices;
+    Normalised normalised(mesh.positions);
+    const Array<Index> order = sort_for_caches(rings, normalised.positions);
+    const std::vector<Step> steps =
+        moving_sets(std::move(rings), normalised.positions, o, static_cast<Index>(mesh.faces.size()), goal.faces, tick);
+    const Array<Index> local = what_became(steps);
+    Array<Index> became = local;
+    for (std::size_t i = 0; i < order.size(); ++i) became[order[i]] = local[i];
+    return mesh_of_rest(mesh, became, normalised);
 }
 
 LevelMesh mesh_of_places(const Hierarchy& h, const Faces& faces, const Array<Index>& gone_to) {

@@ -5,6 +5,7 @@
 #include "base/radix_sort.h"
 #include "base/reduce.h"
 #include "hierarchy/collapse.h"
+#include "hierarchy/placement.h"
 
 #include <algorithm>
 #include <limits>
@@ -29,6 +30,15 @@ struct Candidates {
     Array<std::uint32_t> key;  ///< all ones: not a candidate
     Array<Index> target;       ///< entry in the ring
 };
+
+/// How much a step may take.
+struct Budget {
+    Index vertices, faces;
+
+    bool spent() const { return vertices <= 0 || faces <= 0; }
+};
+
+constexpr Index no_limit = std::numeric_limits<Index>::max();
 
 constexpr std::uint32_t never = std::numeric_limits<std::uint32_t>::max();
 
@@ -81,17 +91,21 @@ Candidates rank_vertices(const State& s, const HierarchyOptions& options) {
 /// that their seams leave no trace in the levels.
 class Selection {
 public:
-    Selection(const State& s, const HierarchyOptions& options)
-        : s_(s), options_(options), share_(options.set_share), limits_{std::cos(radians(options.normal_limit_degrees))},
-          degree_(s.rings.rows()), state_(s.rings.rows(), free), parent_(s.rings.rows(), -1) {
+    /// @param strict  no vertex goes to a target of a higher cost than the step's limit, if its cheapest is barred
+    Selection(const State& s, const HierarchyOptions& options, bool strict)
+        : s_(s), options_(options), share_(options.set_share),
+          strict_(strict), limits_{std::cos(radians(options.normal_limit_degrees))}, degree_(s.rings.rows()),
+          state_(s.rings.rows(), free), parent_(s.rings.rows(), -1) {
         parallel_for(s.rings.rows(), [&](Index i) { degree_[i] = s.rings.size(i); });
     }
 
-    void run(const Candidates& candidates, Index most, bool shifted) {
+    void run(const Candidates& candidates, Budget most, bool shifted) {
         const Index n = s_.rings.rows();
         const std::uint32_t limit = share_ < 1 ? key_of_share(candidates.key) : never;
+        most_of_others_ = strict_ ? limit : never;
         // Only large meshes are cut, where `most` is far away.
-        const Index parts = most > n / 2 ? std::clamp<Index>(n / least_part, 1, most_parts) : 1;
+        const bool far = most.vertices > n / 2 && most.faces > n;
+        const Index parts = far ? std::clamp<Index>(n / least_part, 1, most_parts) : 1;
         const Index width = (n - 1) / parts + 1, shift = parts > 1 && shifted ? width / 2 : 0;
         std::vector<std::vector<Index>> seams(parts + 1);
         std::vector<Index> odd(parts + 1, 0);
@@ -104,18 +118,34 @@ public:
             },
             1);
         for (const Index count : odd) odd_ += count;
+        most.vertices -= odd_;
+        if (most.faces != no_limit) most.faces -= faces_taken();
         std::vector<Index> rest;
         for (const std::vector<Index>& seam : seams)
             for (const Index v : seam)
                 if (state_[v] == free) rest.push_back(v);
-        odd_ += pick(sorted_by_key(std::move(rest), candidates.key), candidates, limit, most - odd_);
-        if (odd_ == 0 && limit != never)  // none of the share may go: whichever is the first to may
-            odd_ = pick(sorted_by_key(candidates.key, never), candidates, never, 1);
+        odd_ += pick(sorted_by_key(std::move(rest), candidates.key), candidates, limit, most);
+        if (odd_ == 0 && limit != never) {  // none of the share may go: whichever is the first to may
+            most_of_others_ = strict_ ? 0 : never;
+            odd_ = pick(sorted_by_key(candidates.key, never), candidates, never, {1, no_limit});
+        }
+        if (odd_ == 0 && strict_) {
+            most_of_others_ = never;
+            odd_ = pick(sorted_by_key(candidates.key, never), candidates, never, {1, no_limit});
+        }
     }
 
     Index odd() const { return odd_; }
     const Array<Index>& parent() const { return parent_; }  ///< -1: even
     const Array<Index>& degree() const { return degree_; }  ///< of even vertices: after the step
+
+    /// How many faces the collapses so far take away.
+    Index faces_taken() const {
+        Index faces = 0;
+        for (Index v = 0; v < s_.rings.rows(); ++v)
+            if (parent_[v] >= 0) faces += faces_of(v);
+        return faces;
+    }
 
 private:
     enum : std::uint8_t { free = 0, locked = 1, target = 2 };
@@ -144,13 +174,18 @@ private:
         return *at;
     }
 
+    Index faces_of(Index v) const { return s_.rings.kind[v] == RingKind::closed ? 2 : 1; }
+
     /// Tries candidates in the order given, up to a cost and a number; gives the number taken.
-    Index pick(const std::vector<Index>& sorted, const Candidates& candidates, std::uint32_t limit, Index most) {
+    Index pick(const std::vector<Index>& sorted, const Candidates& candidates, std::uint32_t limit, Budget left) {
         Index odd = 0;
         std::vector<std::pair<double, Index>> others;
         for (const Index v : sorted) {
-            if (odd >= most || candidates.key[v] > limit) break;
-            if (state_[v] == free && try_vertex(v, candidates.target[v], others)) ++odd;
+            if (left.spent() || candidates.key[v] > limit) break;
+            if (state_[v] != free || !try_vertex(v, candidates.target[v], others)) continue;
+            ++odd;
+            --left.vertices;
+            if (left.faces != no_limit) left.faces -= faces_of(v);
         }
         return odd;
     }
@@ -163,7 +198,8 @@ private:
         const Directions directions(ring);
         for (Index j = 0; j < ring.size; ++j) {
             if (j == best || !directions.allows(j)) continue;
-            others.push_back({target_cost(s_, v, j, options_), j});
+            const double cost = target_cost(s_, v, j, options_);
+            if (radix_key(static_cast<float>(cost)) <= most_of_others_) others.push_back({cost, j});
         }
         std::sort(others.begin(), others.end());
         for (const auto& [cost, j] : others)
@@ -203,6 +239,8 @@ private:
     const State& s_;
     const HierarchyOptions& options_;
     double share_;
+    bool strict_;
+    std::uint32_t most_of_others_ = never;
     collapse::FaceLimits limits_;
     Array<Index> degree_;
     Array<std::uint8_t> state_;
@@ -231,8 +269,10 @@ void number(const Array<Index>& parent, Index odd, Step& step) {
 }
 
 /// The state after a step: even vertices only, renumbered in their order.
+/// @param move  see move_vertices()
 /// @param degree  sizes of the rings after the step
-State next_state(const State& s, const Step& step, const Array<Index>& degree, const HierarchyOptions& options) {
+State next_state(const State& s, const Step& step, const Array<Index>& degree, const HierarchyOptions& options,
+                 bool move) {
     const Index n = s.rings.rows(), m = n - static_cast<Index>(step.parent.size());
     const bool has_features = !s.rings.feature.empty();
     State t;
@@ -268,39 +308,63 @@ State next_state(const State& s, const Step& step, const Array<Index>& degree, c
         t.quadric[to] = q;
         t.error[to] = q.c;
     });
+    if (move)
+        move_vertices(s.rings, s.positions, step, std::cos(radians(options.normal_limit_degrees)), t.rings,
+                      t.positions);
     if (options.memoryless) t.quadric = vertex_quadrics(t.rings, t.positions, options.boundary_weight);
     return t;
 }
 
-}  // namespace
-
-std::vector<Step> independent_sets(Rings rings, Positions positions, const HierarchyOptions& options,
-                                   const Tick& tick) {
+/// The steps, and the state that they leave in s.
+/// @param faces  how many there are to be taken
+std::vector<Step> steps_of(State& s, const HierarchyOptions& options, Index faces, bool move, const Tick& tick) {
     std::vector<Step> steps;
-    State s;
-    s.quadric = vertex_quadrics(rings, positions, options.boundary_weight);
-    s.error.assign(s.quadric.size(), 0);
-    s.rings = std::move(rings);
-    s.positions = std::move(positions);
     const double whole = static_cast<double>(s.rings.rows());
     const Index stop = options.base_vertices +
                        static_cast<Index>(std::count(s.rings.kind.begin(), s.rings.kind.end(), RingKind::isolated));
     for (;;) {
         const Index n = s.rings.rows();
         if (tick) tick(1 - n / whole);
-        Selection selection(s, options);
-        if (n > stop) selection.run(rank_vertices(s, options), n - stop, steps.size() % 2 == 1);
+        Selection selection(s, options, move);
+        const Budget most{n - stop, faces};
+        if (!most.spent()) selection.run(rank_vertices(s, options), most, steps.size() % 2 == 1);
+        if (faces != no_limit) faces -= selection.faces_taken();
         Step step;
         number(selection.parent(), selection.odd(), step);
         State t;
-        if (selection.odd() > 0) t = next_state(s, step, selection.degree(), options);
+        if (selection.odd() > 0) t = next_state(s, step, selection.degree(), options, move);
         if (options.mean_edges && (steps.size() % options.sets_per_level == 0 || selection.odd() == 0))
             step.mean_edge = mean_edge(s.rings, s.positions);
-        step.rings = std::move(s.rings);
+        if (!move) step.rings = std::move(s.rings);
         steps.push_back(std::move(step));
         if (selection.odd() == 0) return steps;
         s = std::move(t);
     }
+}
+
+State state_of(Rings rings, Positions positions, const HierarchyOptions& options) {
+    State s;
+    s.quadric = vertex_quadrics(rings, positions, options.boundary_weight);
+    s.error.assign(s.quadric.size(), 0);
+    s.rings = std::move(rings);
+    s.positions = std::move(positions);
+    return s;
+}
+
+}  // namespace
+
+std::vector<Step> independent_sets(Rings rings, Positions positions, const HierarchyOptions& options,
+                                   const Tick& tick) {
+    State s = state_of(std::move(rings), std::move(positions), options);
+    return steps_of(s, options, no_limit, false, tick);
+}
+
+std::vector<Step> moving_sets(Rings rings, Positions& positions, const HierarchyOptions& options, Index faces,
+                              Index least, const Tick& tick) {
+    State s = state_of(std::move(rings), std::move(positions), options);
+    std::vector<Step> steps = steps_of(s, options, std::max<Index>(0, faces - least), true, tick);
+    positions = std::move(s.positions);
+    return steps;
 }
 
 }  // namespace multires

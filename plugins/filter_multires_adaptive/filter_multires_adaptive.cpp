@@ -72,7 +72,8 @@ void bind_adaptive(Parameters& p, AdaptiveOptions& o) {
         .in("Target");
     p.add("fit", &o.fit, "Fit positions",
           "Move the vertices kept to where they fit the input best. The boundary and the selection kept in full "
-          "stay where they are.")
+          "stay where they are. If the target is a number or the RMS distance and the shape alone decides, vertices "
+          "move while others are removed: less RMS distance in less time.")
         .in("Target");
     p.add("measure", &o.measure, "Measure the distance", "Report the two-sided distance to the input.").in("Target");
     const char* band = "Band";
@@ -105,8 +106,8 @@ const Returns adaptive_returns{
     {"faces", Type::integer, "", "Faces of the new layer."},
     {"vertices", Type::integer, "", "Its vertices."},
     {"unreferenced_vertices", Type::integer, "", "Vertices without a face, which are kept."},
-    {"base_faces", Type::integer, "", "Faces of the base mesh: no fewer can be had."},
-    {"base_vertices", Type::integer, "", "Its vertices."},
+    {"base_faces", Type::integer, "", "Faces of the base mesh: no fewer can be had.", false},
+    {"base_vertices", Type::integer, "", "Its vertices.", false},
     {"*_threshold_used", Type::real, "unit of the threshold",
      "Threshold of each kind of detail in use, as given or as found for the target.", false},
     {"rms_distance", Type::real, "mesh units", "Root of the mean square of the two-sided distance to the input.",

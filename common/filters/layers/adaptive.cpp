@@ -1,5 +1,6 @@
 #include "filters/layers/adaptive.h"
 
+#include "filters/layers/adaptive_search.h"
 #include "measure/distance.h"
 #include "measure/measure.h"
 #include "mesh/adjacency.h"
@@ -90,14 +91,6 @@ std::vector<std::uint8_t> seam_edges(const Layer& layer) {
     return seam;
 }
 
-/// A reconstruction: its places in order of the input, and the mesh over them.
-struct Reconstruction {
-    Index count = 0;
-    DerivedMesh mesh;
-    Positions positions;
-    std::optional<Distance> distance;
-};
-
 /// Makes reconstructions of one layer.
 class Reconstructor {
 public:
@@ -149,34 +142,6 @@ public:
         return count;
     }
 
-    /// The fewest vertices found, by bisection, whose distance is within the bound.
-    Reconstruction within(Index least, double bound, const Progress& progress) const {
-        const auto distance = [&](const Reconstruction& r) {
-            return options_.target == Target::rms_distance ? r.distance->rms : r.distance->largest;
-        };
-        double low = least, high = h_.vertices(), next = std::max<double>(least, h_.vertices() / 10.0);
-        std::optional<Reconstruction> best;
-        constexpr int most = 14;
-        for (int i = 0; i < most && low < high; ++i) {
-            progress.report(static_cast<double>(i) / most, "Searching the threshold");
-            Reconstruction r = make(static_cast<Index>(next), true);
-            const double off = distance(r);
-            if (off <= bound) {
-                high = r.count;
-                best = std::move(r);
-            } else {
-                low = r.count + 1;
-            }
-            if (high < 1.005 * low && (best || low >= high)) break;
-            // Distances fall about as the number of vertices grows; else half way in the logarithm.
-            next = off > 0 ? std::floor(next * off / bound * (off <= bound ? 1.01 : 0.99)) : low;
-            if (i > 5 || next <= low * 1.002 || next >= high * 0.998) next = std::floor(std::sqrt(low * high));
-            next = std::clamp(next, low, high);
-            if (next >= high && best) next = std::max(low, high - 1);
-        }
-        return best ? std::move(*best) : make(h_.vertices(), true);
-    }
-
 private:
     const Layer& layer_;
     const AdaptiveOptions& options_;
@@ -197,10 +162,14 @@ void report_thresholds(AdaptiveOptions o, double scale, Report& report) {
 
 }  // namespace
 
-Hierarchy adaptive_hierarchy(const Layer& layer, const AdaptiveOptions& options, const Progress& progress) {
+Rings adaptive_rings(const Layer& layer, const AdaptiveOptions& options) {
     Rings rings = vertex_rings(layer.mesh);
     mark_features(rings, layer, options.features, options.feature_angle);
     if (options.texcoord.use && !layer.wedges.empty()) mark_features(rings, layer.mesh.faces, seam_edges(layer));
+    return rings;
+}
+
+HierarchyOptions adaptive_collapses(const AdaptiveOptions& options) {
     HierarchyOptions h;
     h.base_vertices = options.base_vertices;
     h.normal_limit_degrees = options.normal_limit;
@@ -209,8 +178,30 @@ Hierarchy adaptive_hierarchy(const Layer& layer, const AdaptiveOptions& options,
     h.memoryless = true;
     h.boundary_weight = boundary_weight;
     h.flaps = uses_flaps(options.op);
-    return build_hierarchy(std::move(rings), layer.mesh.positions, h,
+    return h;
+}
+
+Hierarchy adaptive_hierarchy(const Layer& layer, const AdaptiveOptions& options, const Progress& progress) {
+    return build_hierarchy(adaptive_rings(layer, options), layer.mesh.positions, adaptive_collapses(options),
                            [&](double f) { progress.report(f, "Building the hierarchy"); });
+}
+
+Result result_of(Reconstruction r, const Layer& layer, bool with_positions, Report report) {
+    Result result;
+    report.add("faces", static_cast<int>(r.mesh.faces.size()));
+    report.add("vertices", static_cast<int>(r.mesh.source_vertex.size()));
+    if (r.distance) {
+        report.add("rms_distance", r.distance->rms, "mesh units");
+        report.add("largest_distance", r.distance->largest, "mesh units");
+        report.add("rms_distance_percent", 100 * r.distance->rms / box_diagonal(layer), "percent of the diagonal");
+        report.add("largest_distance_percent", 100 * r.distance->largest / box_diagonal(layer),
+                   "percent of the diagonal");
+    }
+    result.report = std::move(report);
+    result.layer = std::move(r.mesh);
+    result.layer->name = "adaptive " + std::to_string(result.layer->faces.size());
+    if (with_positions) result.layer->positions = std::move(r.positions);
+    return result;
 }
 
 Result adaptive_reconstruction(const Layer& input, const AdaptiveOptions& given, Session& session) {
@@ -220,6 +211,7 @@ Result adaptive_reconstruction(const Layer& input, const AdaptiveOptions& given,
     const Layer changed = filter ? filtered(input, o, session) : Layer();
     const Layer& layer = filter ? changed : input;
 
+    if (moves_on_the_way(o)) return moving_reconstruction(layer, o, session);
     const Hierarchy h = adaptive_hierarchy(layer, o, session.progress.part(filter ? 0.4 : 0, 0.6));
     session.progress.report(0.6, "Measuring the details");
     const Insertion insertion = insertion_order(h, importance(layer, h, o));
@@ -227,7 +219,7 @@ Result adaptive_reconstruction(const Layer& input, const AdaptiveOptions& given,
     const Index base = h.size.back(), least = insertion.count(std::numeric_limits<double>::infinity());
     const double unit = o.unit == LengthUnit::percent ? box_diagonal(layer) / 100 : 1;
     session.progress.report(0.7, "Choosing the vertices");
-    const Reconstruction r = [&] {
+    Reconstruction r = [&] {
         switch (o.target) {
         case Target::threshold:
             return reconstructor.make(insertion.count(1), o.measure);
@@ -237,15 +229,13 @@ Result adaptive_reconstruction(const Layer& input, const AdaptiveOptions& given,
             return reconstructor.make(
                 std::clamp<Index>(std::min(o.vertices, h.vertices()) + h.isolated, least, h.vertices()), o.measure);
         default:
-            return reconstructor.within(least, o.error * unit, session.progress.part(0.7, 0.98));
+            return fewest_within([&](Index count) { return reconstructor.make(count, true); }, least, h.vertices(),
+                                 o.target, o.error * unit, session.progress.part(0.7, 0.98));
         }
     }();
     session.progress.report(0.98, "Making the layer");
 
-    Result result;
-    Report& report = result.report;
-    report.add("faces", static_cast<int>(r.mesh.faces.size()));
-    report.add("vertices", static_cast<int>(r.mesh.source_vertex.size()));
+    Report report;
     report.add("unreferenced_vertices", static_cast<int>(h.isolated));
     report.add("base_faces", reconstructor.base_faces());
     report.add("base_vertices", static_cast<int>(base));
@@ -255,17 +245,7 @@ Result adaptive_reconstruction(const Layer& input, const AdaptiveOptions& given,
     } else {
         report_thresholds(o, 1, report);
     }
-    if (r.distance) {
-        report.add("rms_distance", r.distance->rms, "mesh units");
-        report.add("largest_distance", r.distance->largest, "mesh units");
-        report.add("rms_distance_percent", 100 * r.distance->rms / box_diagonal(layer), "percent of the diagonal");
-        report.add("largest_distance_percent", 100 * r.distance->largest / box_diagonal(layer),
-                   "percent of the diagonal");
-    }
-    result.layer = r.mesh;
-    result.layer->name = "adaptive " + std::to_string(r.mesh.faces.size());
-    if (filter || o.fit) result.layer->positions = r.positions;
-    return result;
+    return result_of(std::move(r), layer, filter || o.fit, std::move(report));
 }
 
 }  // namespace multires

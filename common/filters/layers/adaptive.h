@@ -51,7 +51,7 @@ struct AdaptiveOptions {
     Criterion criterion = Criterion::area_error;
     Operator op = Operator::cotangent_delaunay;  ///< predicts attributes, and positions for Criterion::detail
     bool region_of_interest = false;             ///< selected vertices and faces are kept whatever their details
-    bool fit = false;                            ///< move the vertices kept to where they fit the input best
+    bool fit = false;  ///< move the vertices kept to where they fit the input best, see also moves_on_the_way()
     /// Gain of a band of details, applied to the input before anything else; 1: none.
     double band_gain = 1;
     Band band;

@@ -676,9 +676,9 @@ class AdaptiveReconstructionReport(Result):
     """Its vertices."""
     unreferenced_vertices: int
     """Vertices without a face, which are kept."""
-    base_faces: int
+    base_faces: int | None = None
     """Faces of the base mesh: no fewer can be had."""
-    base_vertices: int
+    base_vertices: int | None = None
     """Its vertices."""
     threshold_used: dict[str, float] = dataclasses.field(default_factory=dict)
     """Threshold of each kind of detail in use, as given or as found for the target (unit of the threshold). By
@@ -1827,7 +1827,8 @@ def adaptive_reconstruction(
         region_of_interest: Keep selected vertices and faces as they are, and level of detail by the thresholds
             elsewhere.
         fit: Move the vertices kept to where they fit the input best. The boundary and the selection kept in full stay
-            where they are.
+            where they are. If the target is a number or the RMS distance and the shape alone decides, vertices move
+            while others are removed: less RMS distance in less time.
         measure: Report the two-sided distance to the input.
         band_gain: Applied to the input first: 0 removes the details between the two wavelengths below, 1 changes
             nothing. A number, -1000 to 1000.

@@ -1,0 +1,82 @@
+#include "filters/layers/adaptive_search.h"
+#include "hierarchy/simplify.h"
+#include "mesh/validation.h"
+
+// Adaptive reconstruction whose vertices move while others are removed.
+
+namespace multires {
+namespace {
+
+/// Makes reconstructions of one layer.
+class Maker {
+public:
+    Maker(const Layer& layer, const AdaptiveOptions& options, bool measure)
+        : layer_(layer), options_(options), measure_(measure), rings_(adaptive_rings(layer, options)) {
+        const auto isolated = std::count(rings_.kind.begin(), rings_.kind.end(), RingKind::isolated);
+        isolated_ = static_cast<Index>(isolated);
+    }
+
+    Index isolated() const { return isolated_; }
+    /// Vertices of the input that are in a face.
+    Index all() const { return rings_.rows() - isolated_; }
+
+    Reconstruction make(const SimplifyGoal& goal, const Progress& progress) const {
+        HierarchyOptions how = adaptive_collapses(options_);
+        how.set_share = 0.25;
+        Simplified s =
+            simplify(layer_.mesh, rings_, how, goal, [&](double f) { progress.report(f, "Removing vertices"); });
+        Reconstruction r;
+        r.count = static_cast<Index>(s.source_vertex.size()) - isolated_;
+        r.mesh.faces = std::move(s.faces);
+        r.mesh.source_vertex = std::move(s.source_vertex);
+        r.mesh.source_face = std::move(s.source_face);
+        r.positions = std::move(s.positions);
+        if (measure_)
+            r.distance = r.count == all()
+                             ? Distance()
+                             : two_sided_distance(layer_.mesh.faces, layer_.mesh.positions, r.mesh.faces, r.positions);
+        return r;
+    }
+
+private:
+    const Layer& layer_;
+    const AdaptiveOptions& options_;
+    bool measure_;
+    Rings rings_;
+    Index isolated_ = 0;
+};
+
+}  // namespace
+
+bool moves_on_the_way(const AdaptiveOptions& o) {
+    const bool target = o.target == Target::faces || o.target == Target::vertices || o.target == Target::rms_distance;
+    return o.fit && target && o.criterion == Criterion::area_error && !o.region_of_interest && o.geometry.use &&
+           !o.color.use && !o.quality.use && !o.texcoord.use && !o.normal.use;
+}
+
+Result moving_reconstruction(const Layer& layer, const AdaptiveOptions& o, Session& session) {
+    const bool bound = o.target == Target::rms_distance;
+    const Maker maker(layer, o, o.measure || bound);
+    const Progress making = session.progress.part(0, bound ? 0.1 : 0.98);
+    Report report;
+    const Reconstruction r = [&] {
+        if (o.target == Target::faces) return maker.make({o.base_vertices, o.faces}, making);
+        const Index wanted = std::max(o.target == Target::vertices ? o.vertices : 0, o.base_vertices);
+        Reconstruction least = maker.make({wanted, 0}, making);
+        if (!bound) return least;
+        report.add("base_faces", static_cast<int>(least.mesh.faces.size()));
+        report.add("base_vertices", static_cast<int>(least.mesh.source_vertex.size()));
+        const double most = o.error * (o.unit == LengthUnit::percent ? box_diagonal(layer) / 100 : 1);
+        if (least.distance->rms <= most) return least;
+        return fewest_within(
+            [&](Index count) {
+                return maker.make({count, 0}, Progress());
+            },
+            least.count + 1, maker.all(), o.target, most, session.progress.part(0.1, 0.98));
+    }();
+    session.progress.report(0.98, "Making the layer");
+    report.add("unreferenced_vertices", static_cast<int>(maker.isolated()));
+    return result_of(r, layer, true, std::move(report));
+}
+
+}  // namespace multires
