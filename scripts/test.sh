@@ -14,12 +14,13 @@ stop() {
 
 scripts/setup.sh || stop "setup failed"
 for preset in "${presets[@]}"; do
-    echo "Building $preset"
+    echo "Building $preset, after $SECONDS s"
     rm -f "build/$preset"/ctest.xml "build/$preset"/pytest_*.xml
     cmake --preset "$preset" --log-level=WARNING >/dev/null || stop "cannot configure $preset"
     cmake --build --preset "$preset" || stop "cannot build $preset"
 done
 for preset in "${presets[@]}"; do
+    echo "Testing $preset, after $SECONDS s"
     ctest --preset "$preset" --parallel "$(nproc)" --output-junit ctest.xml --progress ||
         true # counted below
 done
