@@ -91,7 +91,9 @@ Candidates rank_vertices(const State& s, const HierarchyOptions& options) {
 /// that their seams leave no trace in the levels.
 class Selection {
 public:
-    /// @param strict  no vertex goes to a target of a higher cost than the step's limit, if its cheapest is barred
+    /// @param strict  no collapse costs more than the step's limit: none to another target than the cheapest, if that
+    /// is
+    ///                barred, and none if all of the share are
     Selection(const State& s, const HierarchyOptions& options, bool strict)
         : s_(s), options_(options), share_(options.set_share),
           strict_(strict), limits_{std::cos(radians(options.normal_limit_degrees))}, degree_(s.rings.rows()),
@@ -125,14 +127,8 @@ public:
             for (const Index v : seam)
                 if (state_[v] == free) rest.push_back(v);
         odd_ += pick(sorted_by_key(std::move(rest), candidates.key), candidates, limit, most);
-        if (odd_ == 0 && limit != never) {  // none of the share may go: whichever is the first to may
-            most_of_others_ = strict_ ? 0 : never;
+        if (odd_ == 0 && limit != never && !strict_)  // none of the share may go: whichever is the first to may
             odd_ = pick(sorted_by_key(candidates.key, never), candidates, never, {1, no_limit});
-        }
-        if (odd_ == 0 && strict_) {
-            most_of_others_ = never;
-            odd_ = pick(sorted_by_key(candidates.key, never), candidates, never, {1, no_limit});
-        }
     }
 
     Index odd() const { return odd_; }

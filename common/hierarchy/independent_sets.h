@@ -18,8 +18,8 @@ struct Step {
 /// Decimates down to options.base_vertices; the last Step has no odd vertices and holds the base's rings.
 std::vector<Step> independent_sets(Rings rings, Positions positions, const HierarchyOptions& options, const Tick& tick);
 
-/// The same with vertices that move, down to options.base_vertices or to as few faces, whichever comes first. Steps
-/// have no rings. See simplify().
+/// The same with vertices that move, down to options.base_vertices or to as few faces, whichever comes first; or to
+/// where none of the cheapest share may be collapsed. Steps have no rings. See simplify().
 /// @param positions  #V; becomes those of the vertices that stay, in their order
 /// @param faces      how many there are
 /// @param least      how many are wanted

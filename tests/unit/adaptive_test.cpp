@@ -557,6 +557,21 @@ TEST(Adaptive, MovingOnTheWayKeepsTopologyAndBoundaryOnEveryClass) {
             }
 }
 
+TEST(Adaptive, FitIsNoWorseThanVerticesOfTheInputOnAnyClass) {
+    for (const auto& [name, mesh] : fixtures::every_class())
+        for (const double share : {0.5, 0.2}) {
+            SCOPED_TRACE(name + ", " + std::to_string(share));
+            AdaptiveOptions o = moving(Target::faces, share, mesh);
+            o.measure = true;
+            const Result fit = run(layer_of(mesh), o);
+            o.fit = false;
+            const Result plain = run(layer_of(mesh), o);
+            const double diagonal = box_diagonal(layer_of(mesh));
+            EXPECT_LE(value(fit, "rms_distance"), value(plain, "rms_distance") + 1e-6 * diagonal);
+            EXPECT_LE(value(fit, "faces"), std::max<double>(o.faces, value(plain, "faces")));
+        }
+}
+
 TEST(Adaptive, MovingOnTheWayLeavesDamagedMeshesValid) {
     for (std::uint64_t seed = 1; seed <= 30; ++seed) {
         SCOPED_TRACE(seed);

@@ -211,14 +211,18 @@ Result adaptive_reconstruction(const Layer& input, const AdaptiveOptions& given,
     const Layer changed = filter ? filtered(input, o, session) : Layer();
     const Layer& layer = filter ? changed : input;
 
-    if (moves_on_the_way(o)) return moving_reconstruction(layer, o, session);
-    const Hierarchy h = adaptive_hierarchy(layer, o, session.progress.part(filter ? 0.4 : 0, 0.6));
-    session.progress.report(0.6, "Measuring the details");
+    Progress rest = session.progress.part(filter ? 0.4 : 0, 1);
+    if (moves_on_the_way(o)) {
+        if (std::optional<Result> moved = moving_reconstruction(layer, o, rest.part(0, 0.5))) return std::move(*moved);
+        rest = rest.part(0.5, 1);
+    }
+    const Hierarchy h = adaptive_hierarchy(layer, o, rest.part(0, 0.6));
+    rest.report(0.6, "Measuring the details");
     const Insertion insertion = insertion_order(h, importance(layer, h, o));
     const Reconstructor reconstructor(layer, o, h, insertion);
     const Index base = h.size.back(), least = insertion.count(std::numeric_limits<double>::infinity());
     const double unit = o.unit == LengthUnit::percent ? box_diagonal(layer) / 100 : 1;
-    session.progress.report(0.7, "Choosing the vertices");
+    rest.report(0.7, "Choosing the vertices");
     Reconstruction r = [&] {
         switch (o.target) {
         case Target::threshold:
@@ -230,10 +234,10 @@ Result adaptive_reconstruction(const Layer& input, const AdaptiveOptions& given,
                 std::clamp<Index>(std::min(o.vertices, h.vertices()) + h.isolated, least, h.vertices()), o.measure);
         default:
             return fewest_within([&](Index count) { return reconstructor.make(count, true); }, least, h.vertices(),
-                                 o.target, o.error * unit, session.progress.part(0.7, 0.98));
+                                 o.target, o.error * unit, rest.part(0.7, 0.98));
         }
     }();
-    session.progress.report(0.98, "Making the layer");
+    rest.report(0.98, "Making the layer");
 
     Report report;
     report.add("unreferenced_vertices", static_cast<int>(h.isolated));

@@ -54,29 +54,31 @@ bool moves_on_the_way(const AdaptiveOptions& o) {
            !o.color.use && !o.quality.use && !o.texcoord.use && !o.normal.use;
 }
 
-Result moving_reconstruction(const Layer& layer, const AdaptiveOptions& o, Session& session) {
+std::optional<Result> moving_reconstruction(const Layer& layer, const AdaptiveOptions& o, const Progress& progress) {
     const bool bound = o.target == Target::rms_distance;
     const Maker maker(layer, o, o.measure || bound);
-    const Progress making = session.progress.part(0, bound ? 0.1 : 0.98);
-    Report report;
-    const Reconstruction r = [&] {
-        if (o.target == Target::faces) return maker.make({o.base_vertices, o.faces}, making);
-        const Index wanted = std::max(o.target == Target::vertices ? o.vertices : 0, o.base_vertices);
-        Reconstruction least = maker.make({wanted, 0}, making);
-        if (!bound) return least;
-        report.add("base_faces", static_cast<int>(least.mesh.faces.size()));
-        report.add("base_vertices", static_cast<int>(least.mesh.source_vertex.size()));
+    std::optional<Reconstruction> r;
+    if (o.target == Target::faces) {
+        r = maker.make({o.base_vertices, o.faces}, progress);
+        if (static_cast<int>(r->mesh.faces.size()) > o.faces) return {};
+    } else if (o.target == Target::vertices) {
+        const Index wanted = std::min(std::max(o.vertices, o.base_vertices), maker.all());
+        r = maker.make({wanted, 0}, progress);
+        if (r->count > wanted) return {};
+    } else {
         const double most = o.error * (o.unit == LengthUnit::percent ? box_diagonal(layer) / 100 : 1);
-        if (least.distance->rms <= most) return least;
-        return fewest_within(
-            [&](Index count) {
-                return maker.make({count, 0}, Progress());
-            },
-            least.count + 1, maker.all(), o.target, most, session.progress.part(0.1, 0.98));
-    }();
-    session.progress.report(0.98, "Making the layer");
+        bool barred = false;
+        const auto make = [&](Index count) {
+            Reconstruction made = maker.make({count, 0}, Progress());
+            barred |= made.count > count;
+            return made;
+        };
+        r = fewest_within(make, std::min<Index>(o.base_vertices, maker.all()), maker.all(), o.target, most, progress);
+        if (barred) return {};
+    }
+    Report report;
     report.add("unreferenced_vertices", static_cast<int>(maker.isolated()));
-    return result_of(r, layer, true, std::move(report));
+    return result_of(std::move(*r), layer, true, std::move(report));
 }
 
 }  // namespace multires

@@ -51,7 +51,9 @@ Reconstruction fewest_within(const Make& make, Index least, Index most, Target t
 bool moves_on_the_way(const AdaptiveOptions& options);
 
 /// The filter in that case. Sets of vertices of different targets are not nested.
-Result moving_reconstruction(const Layer& layer, const AdaptiveOptions& options, Session& session);
+/// @return none if simplify() does not get there: the mesh bars too many cheap collapses
+std::optional<Result> moving_reconstruction(const Layer& layer, const AdaptiveOptions& options,
+                                            const Progress& progress);
 
 /// The layer of a reconstruction, and what the report says of it.
 /// @param with_positions  they are not the input's
