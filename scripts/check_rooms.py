@@ -15,7 +15,7 @@ COMMON = {
     "vcg": ["base", "mesh"],
     **{room: ["base", "mesh"] for room in FLOOR},
     "solvers": ["base", "mesh", "operators", "hierarchy"],
-    "schemes": ["base", "mesh", "operators", "hierarchy"],
+    "schemes": ["base", "mesh", "operators", "hierarchy", "grids"],
     "editing": ["base", "mesh", "measure", "solvers"],
     "bands": ["base", "mesh", "measure", "solvers"],
     "pyramid": ["base", "mesh", *FLOOR, "solvers", "schemes"],

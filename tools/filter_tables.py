@@ -38,6 +38,8 @@ FUNCTIONS = {
     "apply_coord_multires_grid_compress": "grid_compress",
     "generate_multires_grid_level": "grid_level",
     "apply_coord_multires_grid_edit": "grid_edit",
+    "apply_attributes_multires_grid_band": "filter_grid_attributes",
+    "apply_attributes_multires_grid_compress": "compress_grid_attributes",
 }
 
 

@@ -453,10 +453,10 @@ def stone(path):
     rendering.contact_sheet(panels, camera, 420, close_ups=False).save(path, "WEBP", quality=82, method=6)
 
 
-def mountains(n=160):
+def mountains(n=160, seed=4):
     """A made-up terrain on a triangular grid: ridges of all sizes. Vertices and faces."""
     i, j = np.mgrid[:n, :n] / n
-    random, z = np.random.default_rng(4), np.zeros((n, n))
+    random, z = np.random.default_rng(seed), np.zeros((n, n))
     for octave in range(6):
         turn, shift = random.uniform(0, 7, 2), random.uniform(0, 7, 2)
         for angle in turn:
@@ -467,8 +467,18 @@ def mountains(n=160):
     return np.column_stack([i.ravel(), j.ravel(), z.ravel()]), faces
 
 
+def painted_grid(name, v, f):
+    """A filter of attributes of triangular grids on the mountains, in colours with noise."""
+    ms, how = with_colors(v, f), {"share": 5} if "compress" in name else {"gains": "0, 0, 0.5"}
+    panels = [painted("Before", "colours with noise", ms)]
+    ms.apply_filter(name, **how)
+    return [*panels, painted("After", "5 % of the coefficients" if "compress" in name else "gains 0, 0, 0.5", ms)]
+
+
 def grid_panels(name, v, f):
     """A filter of triangular grids on the mountains."""
+    if "attributes" in name:
+        return painted_grid(name, v, f)
     ms = document(v, f)
     panels = [shaded("Before", f"{len(v):,} vertices", ms)]
     if name == "compute_multires_grid":

@@ -19,6 +19,7 @@ double result_hash(const Result& result) {
         hash.add(result.layer->faces);
         hash.add(result.layer->source_face);
         if (result.layer->positions) add_positions(*result.layer->positions);
+        for (const Attribute& a : result.layer->attributes) hash.add(a.values);
     }
     return hash.empty() ? 0 : static_cast<double>(hash.bits64() >> 12);
 }

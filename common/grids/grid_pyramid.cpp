@@ -31,6 +31,11 @@ double norm_of(const Raster& r) {
 
 }  // namespace
 
+int usual_levels(const Grid& grid) {
+    const double side = std::sqrt(static_cast<double>(grid.vertices));
+    return std::clamp(static_cast<int>(std::floor(std::log2(side / 4))), 1, 16);
+}
+
 Raster subdivided(const Raster& coarse, SplineBasis basis, Index rows, Index columns) {
     return synthesise({coarse.values.data()}, basis, rows, columns);
 }

@@ -61,6 +61,9 @@ private:
     std::size_t size_ = 0;
 };
 
+/// Levels down to about 4 by 4 points, at least one.
+int usual_levels(const Grid& grid);
+
 /// What scaling functions alone give at the next finer level: one step of subdivision.
 /// @param rows, columns  of the finer level; `coarse` has the size of its coarse_box()
 Raster subdivided(const Raster& coarse, SplineBasis basis, Index rows, Index columns);

@@ -240,8 +240,8 @@ std::size_t bytes(const Hierarchy& h) {
     const auto of_rings = [&](const Rings& r) {
         return of(r.offset) + of(r.neighbor) + of(r.flap) + of(r.feature) + of(r.kind) + of(r.vertices);
     };
-    std::size_t sum =
-        of(h.order) + of(h.parent) + of(h.size) + of(h.levels) + of(h.positions) + of(h.mean_edge) + of_rings(h.base);
+    std::size_t sum = of(h.order) + of(h.parent) + of(h.size) + of(h.levels) + of(h.positions) + of(h.mean_edge) +
+                      of(h.lattice) + of_rings(h.base);
     for (const Level& level : h.levels) sum += of_rings(level.odd) + of_rings(level.even) + of(level.sets);
     return sum;
 }

@@ -67,6 +67,12 @@ struct Level {
     bool independent() const { return sets.size() <= 2; }
 };
 
+/// Where on a triangular grid a vertex lies.
+struct LatticePlace {
+    Index grid = -1;  ///< which one, largest first; -1: in none
+    Index i = 0, j = 0;
+};
+
 /// The order in which half-edge collapses remove vertices, grouped into levels. Knows geometry, not signals: positions
 /// never move, so every level is a subset of the input's vertices.
 struct Hierarchy {
@@ -79,8 +85,9 @@ struct Hierarchy {
     /// #levels+1: mean edge lengths of the levels' meshes, an edge on the boundary counting as any other; mesh units.
     /// Empty unless asked for.
     std::vector<double> mean_edge;
-    Index irregular = 0;  ///< vertices kept because their neighbourhood is not a disk or half disk
-    Index isolated = 0;   ///< vertices kept because no face holds them
+    Array<LatticePlace> lattice;  ///< #V, or empty: the hierarchy is not that of triangular grids
+    Index irregular = 0;          ///< vertices kept because their neighbourhood is not a disk or half disk
+    Index isolated = 0;           ///< vertices kept because no face holds them
 
     Index vertices() const { return static_cast<Index>(order.size()); }
 };

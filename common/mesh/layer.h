@@ -48,6 +48,8 @@ struct DerivedMesh {
     Faces faces;                         ///< #F' by 3 indices into source_vertex
     std::vector<Index> source_face;      ///< #F' indices into the input's faces: where face attributes come from
     std::optional<Positions> positions;  ///< #V' by 3 where they differ from the source vertices'
+    /// #V' by width, where they differ from the source vertices': of kinds and names that the layer has.
+    std::vector<Attribute> attributes = {};
 };
 
 }  // namespace multires

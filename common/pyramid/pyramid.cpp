@@ -20,11 +20,30 @@ HierarchyOptions hierarchy_options(const PyramidOptions& o) {
     return h;
 }
 
+/// Of a scheme's own kind, or of collapses.
+Hierarchy hierarchy_of(const Layer& layer, const PyramidOptions& options, const Progress& progress) {
+    const SchemeRow& row = schemes().at(static_cast<std::size_t>(options.scheme.row));
+    if (row.own_hierarchy) {
+        require(options.features.from == Features::none,
+                "features: the scheme " + row.name + " smooths across edges; choose none, or another scheme");
+        progress.report(0.3, "Finding the grid");
+        return row.own_hierarchy(layer.mesh, hierarchy_options(options));
+    }
+    progress.report(0, "Finding the neighbours");
+    Rings rings = vertex_rings(layer.mesh);
+    mark_features(rings, layer, options.features.from, options.features.angle);
+    const Progress building = progress.part(0.05, 0.6);
+    return build_hierarchy(std::move(rings), layer.mesh.positions, hierarchy_options(options),
+                           [&](double f) { building.report(f, "Building the pyramid"); });
+}
+
 /// Twice the mean edge length of every level.
 std::vector<double> wavelengths(const Hierarchy& h, const Faces& faces) {
     const std::size_t levels = h.levels.size() + 1;
     std::vector<double> out(levels, 0);
     const auto exact = [&](std::size_t k) {
+        if (!h.lattice.empty() && k > 0)
+            return std::ldexp(out[0], static_cast<int>(k));  // level by level twice as long
         return 2 *
                (h.mean_edge.empty() ? mean_edge_length(level_mesh(h, faces, k).faces, h.positions) : h.mean_edge[k]);
     };
@@ -77,13 +96,8 @@ std::vector<LevelInfo> describe(const Hierarchy& h, const Coefficients& c, const
 }  // namespace
 
 Pyramid::Pyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress)
-    : hash_(content_hash(layer, options)), shape_(shape_hash(layer.mesh.positions, layer.mesh.faces)) {
-    const Progress building = progress.part(0.05, 0.6);
-    progress.report(0, "Finding the neighbours");
-    Rings rings = vertex_rings(layer.mesh);
-    mark_features(rings, layer, options.features.from, options.features.angle);
-    hierarchy_ = build_hierarchy(std::move(rings), layer.mesh.positions, hierarchy_options(options),
-                                 [&](double f) { building.report(f, "Building the pyramid"); });
+    : hash_(content_hash(layer, options)), shape_(shape_hash(layer.mesh.positions, layer.mesh.faces)),
+      hierarchy_(hierarchy_of(layer, options, progress)) {
     progress.report(0.6, "Computing weights");
     scheme_ = make_scheme(hierarchy_, options.scheme);
     progress.report(0.8, "Computing details");

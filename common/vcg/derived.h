@@ -3,6 +3,7 @@
 #include "mesh/wedge_charts.h"
 #include "vcg/layer.h"
 
+#include <numeric>
 #include <set>
 
 namespace multires {
@@ -13,8 +14,8 @@ namespace multires {
 /// names included; so are the custom attributes of the types listed in CustomTypes. Faux bits stay on edges between
 /// the vertices they were between, border bits are cleared, wedge texture coordinates follow WedgeCharts. The custom
 /// attribute "source_vertex" holds for every vertex its index in the layer: in the mesh's scalar type, which hosts
-/// can show and save, or as int if a float cannot count that far. Box and normals are the caller's to update, as is
-/// what a class derived from vcg::tri::TriMesh adds.
+/// can show and save, or as int if a float cannot count that far. DerivedMesh::attributes take the place of the
+/// source's. Box and normals are the caller's to update, as is what a class derived from vcg::tri::TriMesh adds.
 /// @return names of the custom attributes that could not be copied
 /// @throws std::invalid_argument  if `target` is not empty or `derived` has indices out of range or arrays of
 ///                                wrong size; `target` is unchanged then, as it is after
@@ -191,6 +192,10 @@ template <class M>
 std::vector<std::string> build_derived(M& target, const M& source, const VcgLayer& flat, const DerivedMesh& derived) {
     vcg_detail::require(target.vert.empty() && target.face.empty(), "the mesh to be filled is not empty");
     vcg_detail::check_derived<typename M::ScalarType>(flat.layer.mesh, derived);
+    VcgLayer all;  // the vertices of the target
+    all.host_vertex.resize(derived.source_vertex.size());
+    std::iota(all.host_vertex.begin(), all.host_vertex.end(), 0);
+    for (const Attribute& a : derived.attributes) vcg_detail::check_attribute(source, all, a);
 
     vcg_detail::enable_components(target, source);
     vcg_detail::build_vertices(target, source, flat, derived);
@@ -199,6 +204,7 @@ std::vector<std::string> build_derived(M& target, const M& source, const VcgLaye
     target.textures = source.textures;
     target.normalmaps = source.normalmaps;
     std::vector<std::string> left_out = vcg_detail::build_customs(target, source, flat, derived);
+    for (const Attribute& a : derived.attributes) vcg_detail::write_attribute(target, all, a);
 
     const auto number = [&](auto type) {
         auto data = vcg::tri::Allocator<M>::template GetPerVertexAttribute<decltype(type)>(target, source_vertex_name);

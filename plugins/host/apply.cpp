@@ -43,18 +43,19 @@ MeshModel& current_mesh(const Filter& filter, MeshDocument& document) {
 /// The layers that a call names, read once each; the current one is there already.
 class OtherLayers {
 public:
-    OtherLayers(const std::vector<const MeshModel*>& models, const MeshModel& current, const VcgLayer& flat) {
+    OtherLayers(const plugin::Filter& filter, const std::vector<const MeshModel*>& models, const MeshModel& current,
+                const VcgLayer& flat) {
         for (const MeshModel* model : models) {
-            if (model != &current && read_.count(model) == 0) read_.emplace(model, read_other(*model));
+            if (model != &current && read_.count(model) == 0) read_.emplace(model, read_other(filter, *model));
             layers_.push_back(model == &current ? &flat.layer : &read_.at(model).layer);
         }
     }
     const std::vector<const Layer*>& layers() const { return layers_; }
 
 private:
-    static VcgLayer read_other(const MeshModel& model) {
+    static VcgLayer read_other(const plugin::Filter& filter, const MeshModel& model) {
         try {
-            return read_layer(model);
+            return read_other_layer(filter, model);
         } catch (const InputError& e) {
             throw InputError("Layer \"" + model.label().toStdString() + "\": " + e.what());
         }
@@ -196,7 +197,7 @@ void apply(const Filter& filter, const RichParameterList& list, MeshDocument& do
     session.original = before.original;
     session.spline = before.spline;
     const plugin::Call call = filter.call(&flat.layer);
-    const OtherLayers others(read_parameters(list, call.parameters, document), model, flat);
+    const OtherLayers others(filter, read_parameters(list, call.parameters, document), model, flat);
     Result result = call.run({flat.layer, others.layers()}, session);
 
     Kept after{session.pyramids, session.intermediates, session.original, session.spline};

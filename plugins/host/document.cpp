@@ -123,20 +123,29 @@ VcgLayer placed_layer(const MeshModel& model, const AttributeRequest& request) {
 
 }  // namespace
 
-VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model) {
+namespace {
+
+AttributeRequest requested_by(const plugin::Filter& filter, const MeshModel& model) {
     AttributeRequest request;
     request.color = filter.reads & plugin::vertex_color && model.hasDataMask(MeshModel::MM_VERTCOLOR);
     request.quality = filter.reads & plugin::vertex_quality && model.hasDataMask(MeshModel::MM_VERTQUALITY);
     request.texcoord = filter.reads & plugin::vertex_texcoord && model.hasDataMask(MeshModel::MM_VERTTEXCOORD);
     request.wedges = filter.reads & plugin::wedge_texcoord && model.hasDataMask(MeshModel::MM_WEDGTEXCOORD);
     if (filter.reads & plugin::custom_attributes) request.custom = custom_attribute_names(model.cm);
-    return placed_layer(model, request);
+    return request;
 }
 
-VcgLayer read_layer(const MeshModel& model) {
-    AttributeRequest request;
-    for (const std::string& name : custom_attribute_names(model.cm))
-        if (name == source_vertex_name) request.custom.push_back(name);
+}  // namespace
+
+VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model) {
+    return placed_layer(model, requested_by(filter, model));
+}
+
+VcgLayer read_other_layer(const plugin::Filter& filter, const MeshModel& model) {
+    AttributeRequest request = requested_by(filter, model);
+    if (request.custom.empty())
+        for (const std::string& name : custom_attribute_names(model.cm))
+            if (name == source_vertex_name) request.custom.push_back(name);
     return placed_layer(model, request);
 }
 

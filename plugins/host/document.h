@@ -10,8 +10,8 @@ namespace multires::host {
 /// The model's mesh as the filter wants it.
 /// @throws InputError  for a broken mesh, see to_layer
 VcgLayer read_layer(const plugin::Filter& filter, const MeshModel& model);
-/// Without attributes but for the source vertices of a level.
-VcgLayer read_layer(const MeshModel& model);
+/// Another layer that the filter takes: the same attributes, and the source vertices of a level.
+VcgLayer read_other_layer(const plugin::Filter& filter, const MeshModel& model);
 
 /// A result, computed from `flat`, on its way into the document. Making one does all that can fail and changes nothing
 /// a user could see; commit() then writes everything. One that goes without a commit takes back what it prepared.

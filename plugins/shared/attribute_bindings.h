@@ -2,7 +2,7 @@
 
 #include "shared/bindings.h"
 
-#include "filters/attributes/channels.h"
+#include "filters/channels.h"
 
 /// Bindings of the choice of attributes, for the filters that work on them.
 namespace multires::plugin {

@@ -33,6 +33,7 @@ MORE = {
        for name in ("low_pass", "stop_band", "enhance")},
     "apply_coord_multires_equalizer": [{"method": "spline", "measure": True, "gain_3": 0}],
     "apply_coord_multires_transfer_edit": [{"encoding": "phong", "bands": 3}],
+    "apply_coord_multires_grid_edit": [{"attributes": True}],
     "transfer_coord_multires_detail": [{"use": "store"}, {"finest": 0.2}],
 }  # fmt: skip
 

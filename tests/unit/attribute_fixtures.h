@@ -61,7 +61,7 @@ inline Layer marked(Layer layer) {
 /// True for errors about a combination of parameters that no mesh can help; all others are the mesh's.
 inline bool blames_parameters(const std::string& error) {
     for (const char* part : {"no attribute is chosen", "at least one kind of detail", "form: ", "threshold_unit share",
-                             "use: there is no attribute"})
+                             "use: there is no attribute", "scheme: ", "features: the scheme"})
         if (error.find(part) != std::string::npos) return true;
     return false;
 }

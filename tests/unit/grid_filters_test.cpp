@@ -1,7 +1,9 @@
+#include "filters/grid/grid_attributes.h"
 #include "filters/grid/grid_band.h"
 #include "filters/grid/grid_compress.h"
 #include "filters/grid/grid_level.h"
 
+#include "attribute_fixtures.h"
 #include "base/reduce.h"
 #include "filter_fixtures.h"
 
@@ -260,6 +262,102 @@ TEST(GridCompress, HonoursAnErrorBoundWithAsFewAsItCan) {
     }
     EXPECT_LT(kept[1], kept[0]);
     EXPECT_LT(kept[1], 1000);
+}
+
+namespace {
+
+/// Heights as quality, and as a custom scalar; colours by a pattern.
+Layer painted() {
+    Layer layer = layer_of(shapes::grid_terrain(with_hole()));
+    std::vector<double> z, color;
+    for (const Vec3& p : layer.mesh.positions) {
+        z.push_back(p.z());
+        for (const double c : {128 + 100 * std::sin(p.x()), 128 + 100 * std::sin(0.2 * p.y()), 40.0, 255.0})
+            color.push_back(std::round(c));
+    }
+    layer.attributes = {{AttributeKind::color, "", 4, color},
+                        {AttributeKind::quality, "", 1, z},
+                        {AttributeKind::scalar, "height", 1, z}};
+    return layer;
+}
+
+}  // namespace
+
+TEST(GridAttributes, BandsOfHeightsAreThoseOfTheShape) {
+    const Layer layer = painted();
+    GridAttributeBandOptions options;
+    options.what = {true, true, false, false, true, ""};
+    options.band.gains = "0, 0.5";
+    GridBandOptions shape = options.band;
+    Session session;
+    const Result r = grid_attributes_band(layer, options, session);
+    const Positions moved = band(layer, shape);
+    ASSERT_EQ(r.attributes.size(), 3u);
+    for (std::size_t v = 0; v < moved.size(); ++v) {
+        EXPECT_NEAR(r.attributes[1].values[v], moved[v].z(), 1e-12);
+        EXPECT_NEAR(r.attributes[2].values[v], moved[v].z(), 1e-12);
+        EXPECT_EQ(r.attributes[0].values[4 * v + 2], 40);  // constants stay exactly
+        EXPECT_EQ(r.attributes[0].values[4 * v + 3], 255);
+    }
+    EXPECT_GT(fixtures::number(r.report, "color_rms_change"), 10);
+    EXPECT_FALSE(r.positions);
+}
+
+TEST(GridAttributes, CompressionOfHeightsIsThatOfTheShape) {
+    const Layer layer = painted();
+    GridAttributeCompressOptions options;
+    options.what.quality = true;
+    options.compress.oracle = Oracle::magnitude, options.compress.grid.channels = GridChannels::heights;
+    Session session;
+    const Result r = grid_attributes_compress(layer, options, session);
+    const Result shape = compress(layer, options.compress);
+    EXPECT_EQ(fixtures::count(r.report, "quality_kept_coefficients"),
+              fixtures::count(shape.report, "kept_coefficients"));
+    EXPECT_NEAR(fixtures::number(r.report, "quality_rms_error"), fixtures::number(shape.report, "rms_error"), 1e-12);
+    for (std::size_t v = 0; v < layer.mesh.positions.size(); ++v)
+        EXPECT_NEAR(r.attributes[0].values[v], (*shape.positions)[v].z(), 1e-9);
+}
+
+TEST(GridAttributes, OfALevelAreTransformedLikeItsShape) {
+    const Layer layer = painted();
+    GridLevelOptions options;
+    options.level = 2;
+    Session session;
+    for (const int refine : {0, 2, 3}) {
+        options.refine = refine;
+        const DerivedMesh made = *generate_grid_level(layer, options, session).layer;
+        ASSERT_EQ(made.attributes.size(), 3u);
+        for (std::size_t v = 0; v < made.source_vertex.size(); ++v)
+            EXPECT_NEAR(made.attributes[1].values[v], (*made.positions)[v].z(), 1e-12);
+        for (const double c : made.attributes[0].values) EXPECT_TRUE(c >= 0 && c <= 255);
+    }
+    options.attributes = false;
+    EXPECT_TRUE(generate_grid_level(layer, options, session).layer->attributes.empty());
+}
+
+TEST(GridAttributes, FollowThoseOfTheControlMeshWhereTheyWereChanged) {
+    const Layer layer = painted();
+    GridLevelOptions options;
+    options.level = 2;
+    Session session;
+    const DerivedMesh made = *generate_grid_level(layer, options, session).layer;
+    Layer control = layer_of_level(made);
+    control.attributes = made.attributes;
+    for (double& x : control.attributes[0].values) x = std::round(x);  // as hosts keep colours
+    GridEditOptions edit;
+    edit.edited.place = 0, edit.attributes = true;
+    const Result none = grid_edit({layer, {&control}}, edit, session);
+    for (std::size_t a = 0; a < 3; ++a) EXPECT_EQ(none.attributes[a].values, layer.attributes[a].values);
+    for (double& x : control.attributes[1].values) x += 5;
+    for (std::size_t i = 2; i < control.attributes[0].values.size(); i += 4) control.attributes[0].values[i] += 30;
+    const Result r = grid_edit({layer, {&control}}, edit, session);
+    EXPECT_EQ(*r.positions, layer.mesh.positions);
+    EXPECT_EQ(r.attributes[2].values, layer.attributes[2].values);
+    for (std::size_t v = 0; v < layer.mesh.positions.size(); ++v) {
+        EXPECT_NEAR(r.attributes[1].values[v], layer.attributes[1].values[v] + 5, 1e-5);  // kept as float
+        EXPECT_NEAR(r.attributes[0].values[4 * v + 2], 70, 1e-9);
+        EXPECT_EQ(r.attributes[0].values[4 * v], layer.attributes[0].values[4 * v]);
+    }
 }
 
 }  // namespace multires

@@ -2,6 +2,7 @@
 #include "attribute_fixtures.h"
 #include "filter_fixtures.h"
 #include "result_numbers.h"
+#include "scheme_fixtures.h"
 #include "suited.h"
 #include "variants.h"
 
@@ -482,8 +483,9 @@ TEST(RandomMeshes, GainsOfOneGiveTheMeshBack) {
         PyramidOptions options;
         options.hierarchy.base_vertices = 4;
         options.scheme.op = static_cast<Operator>(seed % 6);
-        options.scheme.row = static_cast<int>(seed / 6 % schemes().size());
-        options.hierarchy.grouping = static_cast<Grouping>(seed / 6 / schemes().size() % 2);
+        const std::vector<int> schemes = fixtures::every_scheme();
+        options.scheme.row = schemes[seed / 6 % schemes.size()];
+        options.hierarchy.grouping = static_cast<Grouping>(seed / 6 / schemes.size() % 2);
         Session session;
         Report report;
         double diagonal = 0, detail = 0;

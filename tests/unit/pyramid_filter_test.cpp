@@ -3,6 +3,7 @@
 #include "filter_fixtures.h"
 #include "measure/measure.h"
 #include "mesh/validation.h"
+#include "scheme_fixtures.h"
 
 #include <algorithm>
 #include <functional>
@@ -341,7 +342,7 @@ TEST(PyramidCache, KeepsNoMoreThanTwiceTheLargestAndTheNewest) {
         PyramidOptions options;
         options.hierarchy.sets_per_level = 1 + static_cast<int>(random.bits() % 4);
         options.scheme.storage = random.chance(0.5) ? Storage::single : Storage::wide;
-        options.scheme.row = static_cast<int>(random.bits() % schemes().size());
+        options.scheme.row = fixtures::every_scheme()[random.bits() % fixtures::every_scheme().size()];
         const auto pyramid = kept_by(layer, options, session);
         std::size_t sum = 0, largest = 0;
         for (const auto& p : session.pyramids.all()) sum += p->bytes(), largest = std::max(largest, p->bytes());

@@ -25,6 +25,7 @@ inline std::vector<double> numbers(const Result& r) {
         out.insert(out.end(), r.layer->source_face.begin(), r.layer->source_face.end());
         for (const Face& f : r.layer->faces) out.insert(out.end(), f.begin(), f.end());
         if (r.layer->positions) positions(*r.layer->positions);
+        for (const Attribute& a : r.layer->attributes) out.insert(out.end(), a.values.begin(), a.values.end());
     }
     for (const Report::Entry& e : r.report.entries())
         std::visit(

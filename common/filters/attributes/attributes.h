@@ -1,6 +1,6 @@
 #pragma once
 
-#include "filters/attributes/channels.h"
+#include "filters/channels.h"
 #include "filters/region.h"
 #include "pyramid/pyramid.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "filters/attributes/channels.h"
 #include "filters/calibration.h"
+#include "filters/channels.h"
 #include "filters/region.h"
 #include "pyramid/band.h"
 

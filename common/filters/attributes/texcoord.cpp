@@ -1,7 +1,7 @@
 #include "filters/attributes/texcoord.h"
 
 #include "base/angles.h"
-#include "filters/attributes/channels.h"
+#include "filters/channels.h"
 #include "measure/measure.h"
 
 #include <Eigen/Eigenvalues>
@@ -202,6 +202,7 @@ Result generate_texcoord(const Layer& layer, const TexcoordOptions& options, Ses
         throw InputError("projection: the mesh has no vertex texture coordinates that could be continued");
     Result result;
     const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
+    require_starts_anywhere(options.pyramid.scheme);
     std::size_t level = 0;
     while (level + 1 < pyramid->levels().size() && pyramid->levels()[level].vertices > options.coarse_vertices) ++level;
     session.progress.report(0.9, "Subdividing texture coordinates");

@@ -84,6 +84,7 @@ private:
 
     Positions over_level() {
         const auto pyramid = pyramid_of(layer_, options_.pyramid, session_, report_);
+        require_starts_anywhere(options_.pyramid.scheme);
         const Hierarchy& h = pyramid->hierarchy();
         const std::size_t level = nearest_level(h, edit_.proxy_vertices);
         const Field values = field_of(edit_.shape);

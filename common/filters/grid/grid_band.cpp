@@ -23,13 +23,6 @@ std::vector<double> listed_gains(const std::string& text, int levels) {
     return gains;
 }
 
-std::vector<double> gains_of(const GridBandOptions& options, const GridPyramid& pyramid, const Layer& layer) {
-    if (!options.gains.empty()) return listed_gains(options.gains, pyramid.levels());
-    std::vector<double> gains = band_share(level_infos(pyramid, layer), options.band, box_diagonal(layer));
-    for (double& g : gains) g = 1 + g * (options.gain - 1);
-    return gains;
-}
-
 /// What gains change of samples.
 Raster change_of(const Raster& samples, const GridPyramid& pyramid, const std::vector<double>& gains) {
     Array<double> coefficients = pyramid.analyse(samples);
@@ -77,6 +70,21 @@ void report_energies(const std::vector<double>& energy, const std::vector<LevelI
 
 }  // namespace
 
+std::vector<double> grid_gains(const GridBandOptions& options, const GridPyramid& pyramid, const Layer& layer) {
+    require(std::isfinite(options.gain), "gain must be a number");
+    if (!options.gains.empty()) return listed_gains(options.gains, pyramid.levels());
+    std::vector<double> gains = band_share(level_infos(pyramid, layer), options.band, box_diagonal(layer));
+    for (double& g : gains) g = 1 + g * (options.gain - 1);
+    return gains;
+}
+
+std::vector<Raster> change_by_gains(const GridSignal& signal, const GridPyramid& pyramid,
+                                    const std::vector<double>& gains) {
+    std::vector<Raster> change;
+    for (const Raster& channel : signal.channels()) change.push_back(change_of(channel, pyramid, gains));
+    return change;
+}
+
 Result compute_grid(const Layer& layer, const ComputeGridOptions& options, Session& session) {
     Result result;
     session.progress.report(0, "Finding the grid");
@@ -111,7 +119,6 @@ Result compute_grid(const Layer& layer, const ComputeGridOptions& options, Sessi
 }
 
 Result grid_band(const Layer& layer, const GridBandOptions& options, Session& session) {
-    require(std::isfinite(options.gain), "gain must be a number");
     Result result;
     const std::vector<double> weights = region_weights(layer, options.region);
     const Start start(layer, options.relative_to, session, result.report);
@@ -123,13 +130,11 @@ Result grid_band(const Layer& layer, const GridBandOptions& options, Session& se
         const double share = 0.8 / static_cast<double>(found.grids.size());
         session.progress.report(0.1 + share * static_cast<double>(g), "Transforming");
         const GridPyramid pyramid = pyramid_of(found.grids[g], options.grid);
-        const std::vector<double> gains = gains_of(options, pyramid, start.layer());
+        const std::vector<double> gains = grid_gains(options, pyramid, start.layer());
         if (g == 0) reported = gains;
         if (std::all_of(gains.begin(), gains.end(), [](double x) { return x == 1; })) continue;
         const GridSignal signal(found.grids[g], start.layer().mesh.positions, options.grid.channels);
-        std::vector<Raster> change;
-        for (const Raster& channel : signal.channels()) change.push_back(change_of(channel, pyramid, gains));
-        signal.add(change, after);
+        signal.add(change_by_gains(signal, pyramid, gains), after);
     }
     session.progress.report(0.95, "Measuring the change");
     blend(layer.mesh.positions, weights, after);

@@ -26,6 +26,14 @@ struct GridBandOptions {
     RelativeTo relative_to = RelativeTo::current;
 };
 
+/// Gains of the levels of one grid of the layer.
+/// @throws InputError  for limits and gains
+std::vector<double> grid_gains(const GridBandOptions& options, const GridPyramid& pyramid, const Layer& layer);
+
+/// What they change of a signal's samples.
+std::vector<Raster> change_by_gains(const GridSignal& signal, const GridPyramid& pyramid,
+                                    const std::vector<double>& gains);
+
 /// Scales the details of some levels; gains of 1 leave every vertex exactly where it is. Vertices in no grid stay.
 /// @throws InputError  for a mesh that is no triangular grid, limits and gains
 /// Cost: linear.

@@ -1,163 +1,64 @@
 #include "filters/grid/grid_level.h"
 
-#include "filters/grid/control_mesh.h"
+#include "filters/channels.h"
+#include "filters/grid/level_values.h"
 #include "filters/placement.h"
-#include "grids/extension.h"
 #include "mesh/validation.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cmath>
 #include <utility>
 
 namespace multires {
 namespace {
 
-/// A control mesh or a refined surface with positions.
-struct Part {
-    ControlMesh mesh;
-    Positions positions;
-};
-
-/// One step of subdivision beyond the grid: control points around it are extended.
-Raster beyond(const Raster& r, const Mask& mask, SplineBasis basis) {
-    const Index rows = 2 * r.rows - 1, columns = 2 * r.columns - 1;
-    const CoarseBox box = coarse_box(basis, rows, columns);
-    return subdivided(extended(r, mask, -box.first), basis, rows, columns);
+/// Positions, and the attributes if they follow.
+std::vector<Field> fields_of(const Layer& layer, const std::vector<Channels>& attributes) {
+    std::vector<Field> fields{field_of(layer.mesh.positions)};
+    for (const Channels& c : attributes) fields.push_back(c.field);
+    return fields;
 }
 
-/// What the control points of a level give, all three coordinates.
-/// @param shown  the level of the points, <= level; below 0 finer than the grid
-std::vector<Raster> surface_of(const GridPyramid& pyramid, const GridSignal& signal, int level, int shown) {
-    std::vector<Raster> all = signal.channels();
-    for (Raster& r : all) {
-        r = pyramid.refine(pyramid.synthesise(pyramid.analyse(r), level), level, std::max(shown, 0));
-        Mask mask = pyramid.mask(0);
-        for (int k = 0; k > shown; --k) {
-            r = beyond(r, mask, pyramid.basis());
-            mask = Mask(r.rows, r.columns, 1);
-        }
-    }
-    return all;
+std::vector<Channels> following(const Layer& layer, bool attributes) {
+    return attributes ? usable_channels(layer) : std::vector<Channels>();
 }
 
-/// Of all grids.
-std::vector<GridPyramid> pyramids_of(const FoundGrids& found, const GridOptions& options) {
-    std::vector<GridPyramid> pyramids;
-    for (const Grid& grid : found.grids) pyramids.push_back(pyramid_of(grid, options));
-    return pyramids;
+/// An attribute of the layer with the values of a level.
+Attribute of_level(const Attribute& attribute, const Field& values) {
+    Attribute out = attribute;
+    out.values.assign(values.values.begin(), values.values.end());
+    if (out.kind == AttributeKind::color)
+        for (double& x : out.values) x = std::clamp(x, 0.0, 255.0);
+    return out;
 }
 
-Part part_of(const Grid& grid, const GridPyramid& pyramid, const Layer& layer, int level, int shown) {
-    level = std::min(level, pyramid.levels());
-    shown = std::min(shown, level);
-    const GridSignal signal(grid, layer.mesh.positions, GridChannels::positions);
-    Part part;
-    part.mesh =
-        shown < 0 ? divided_grid(grid, -shown, layer.mesh.faces) : control_mesh(grid, pyramid, shown, layer.mesh.faces);
-    for (const Vec3& p : part.mesh.at) part.positions.push_back(signal.affine(p.x(), p.y()));
-    const std::vector<Raster> rest = surface_of(pyramid, signal, level, shown);
-    for (std::size_t v = 0; v < part.positions.size(); ++v)
-        for (int c = 0; c < 3; ++c) part.positions[v][c] += rest[c].values[part.mesh.place[v]];
-    return part;
-}
-
-/// The layer's own vertices and faces, on the surface of a level.
-DerivedMesh own_vertices(const FoundGrids& found, const std::vector<GridPyramid>& pyramids, const Layer& layer,
-                         int level) {
-    DerivedMesh all;
-    all.source_vertex.resize(layer.mesh.positions.size());
-    std::iota(all.source_vertex.begin(), all.source_vertex.end(), 0);
-    all.faces = layer.mesh.faces;
-    all.source_face.resize(all.faces.size());
-    std::iota(all.source_face.begin(), all.source_face.end(), 0);
-    all.positions = layer.mesh.positions;
-    for (std::size_t g = 0; level > 0 && g < found.grids.size(); ++g) {
-        const GridSignal signal(found.grids[g], layer.mesh.positions, GridChannels::positions);
-        const int own = std::min(level, pyramids[g].levels());
-        signal.add(signal.change_to(surface_of(pyramids[g], signal, own, 0)), *all.positions);
-    }
-    return all;
-}
-
-DerivedMesh joined(const std::vector<Part>& parts) {
-    DerivedMesh all;
-    all.positions.emplace();
-    for (const Part& part : parts) {
-        const auto first = static_cast<Index>(all.source_vertex.size());
-        all.source_vertex.insert(all.source_vertex.end(), part.mesh.source.begin(), part.mesh.source.end());
-        all.source_face.insert(all.source_face.end(), part.mesh.source_face.begin(), part.mesh.source_face.end());
-        all.positions->insert(all.positions->end(), part.positions.begin(), part.positions.end());
-        for (const Face& f : part.mesh.faces) all.faces.push_back({f[0] + first, f[1] + first, f[2] + first});
-    }
-    return all;
-}
-
-DerivedMesh level_of(const FoundGrids& found, const std::vector<GridPyramid>& pyramids, const Layer& layer, int level,
-                     int shown) {
-    if (shown == 0) return own_vertices(found, pyramids, layer, level);
-    std::vector<Part> parts;
-    for (std::size_t g = 0; g < pyramids.size(); ++g)
-        parts.push_back(part_of(found.grids[g], pyramids[g], layer, level, shown));
-    return joined(parts);
-}
-
-bool same_faces(const Mesh& mesh, std::size_t vertices, const Faces& faces) {
-    return mesh.positions.size() == vertices && mesh.faces == faces;
-}
-
-/// The level whose control mesh has these faces.
-DerivedMesh matching_level(const FoundGrids& found, const std::vector<GridPyramid>& pyramids, const Layer& layer,
-                           const Layer& edited, const Progress& progress, int& level) {
-    const int most = pyramids[0].levels();
-    if (same_faces(edited.mesh, layer.mesh.positions.size(), layer.mesh.faces))
-        return own_vertices(found, pyramids, layer, level = 0);
-    for (level = 1; level <= most; ++level) {
-        progress.report(0.1 + 0.5 * level / (most + 1), "Finding the level");
-        std::vector<Part> meshes;
-        for (std::size_t g = 0; g < pyramids.size(); ++g) {
-            const int own = std::min(level, pyramids[g].levels());
-            meshes.push_back({control_mesh(found.grids[g], pyramids[g], own, layer.mesh.faces), {}});
-        }
-        const DerivedMesh mesh = joined(meshes);
-        if (same_faces(edited.mesh, mesh.source_vertex.size(), mesh.faces))
-            return level_of(found, pyramids, layer, level, level);
-    }
-    throw InputError("edited: it is no control mesh of the current layer; make one with Grid Level as Layer, with the "
-                     "same basis and levels, and move its vertices only");
+/// As hosts keep a value.
+double stored(double value, AttributeKind kind) {
+    return kind == AttributeKind::color ? std::round(std::clamp(value, 0.0, 255.0)) : static_cast<float>(value);
 }
 
 /// What the edit moved each control point by; nothing if single precision cannot tell any of them.
-Positions ways_of(const Positions& before, const Positions& after) {
-    Positions way(before.size(), Vec3::Zero());
+Field ways_of(const Field& before, const Positions& after) {
+    const Positions old = positions_of(before);
     const auto same = [](const Vec3& a, const Vec3& b) { return a.cast<float>() == b.cast<float>(); };
-    if (!std::equal(before.begin(), before.end(), after.begin(), same))
-        for (std::size_t v = 0; v < way.size(); ++v) way[v] = after[v] - before[v];
+    Field way(before.rows(), 3);
+    if (!std::equal(old.begin(), old.end(), after.begin(), same))
+        for (Index v = 0; v < way.rows(); ++v)
+            for (int c = 0; c < 3; ++c) way.row(v)[c] = after[v][c] - old[v][c];
     return way;
 }
 
-/// Adds the control points' ways, each times its function.
-void follow(const FoundGrids& found, const std::vector<GridPyramid>& pyramids, const Faces& faces, int level,
-            const Positions& way, Positions& after) {
-    std::size_t first = 0;
-    for (std::size_t g = 0; g < pyramids.size(); ++g) {
-        const Grid& grid = found.grids[g];
-        if (level == 0) {  // in the layer's own order
-            for (const Index v : grid.vertex)
-                if (v >= 0) after[v] += way[v];
-            continue;
+/// What it changed an attribute by; nothing if the edited layer does not have it.
+Field ways_of(const Field& before, const Attribute& attribute, const Layer& edited) {
+    Field way(before.rows(), before.width);
+    for (const Attribute& a : edited.attributes) {
+        if (a.kind != attribute.kind || a.name != attribute.name || a.width != before.width) continue;
+        for (std::size_t i = 0; i < way.values.size(); ++i) {
+            require(is_usable(a.values[i]), "edited: values of an attribute are not finite, or beyond 1e70");
+            way.values[i] = stored(a.values[i], a.kind) - stored(before.values[i], a.kind);
         }
-        const GridPyramid& pyramid = pyramids[g];
-        const int own = std::min(level, pyramid.levels());
-        const ControlMesh mesh = control_mesh(grid, pyramid, own, faces);
-        std::vector<Raster> change(3, Raster(pyramid.mask(own).rows, pyramid.mask(own).columns, 0));
-        for (std::size_t v = 0; v < mesh.place.size(); ++v)
-            for (int c = 0; c < 3; ++c) change[c].values[mesh.place[v]] = way[first + v][c];
-        first += mesh.place.size();
-        for (Raster& r : change) r = pyramid.refine(std::move(r), own, 0);
-        for (std::size_t p = 0; p < grid.vertex.size(); ++p)
-            if (grid.vertex[p] >= 0)
-                for (int c = 0; c < 3; ++c) after[grid.vertex[p]][c] += change[c].values[p];
     }
+    return way;
 }
 
 }  // namespace
@@ -172,7 +73,13 @@ Result generate_grid_level(const Layer& layer, const GridLevelOptions& options, 
     require(options.refine >= 0 && options.refine <= options.level + 3,
             "refine must be between 0 and " + std::to_string(options.level + 3) + ", three more than the level");
     session.progress.report(0.2, "Transforming");
-    DerivedMesh derived = level_of(found, pyramids, layer, options.level, options.level - options.refine);
+    const std::vector<Channels> attributes = following(layer, options.attributes);
+    GridLevelMesh made = level_of(found, pyramids, fields_of(layer, attributes), layer.mesh.faces, options.level,
+                                  options.level - options.refine);
+    DerivedMesh derived = std::move(made.mesh);
+    derived.positions = positions_of(made.values[0]);
+    for (std::size_t a = 0; a < attributes.size(); ++a)
+        derived.attributes.push_back(of_level(layer.attributes[attributes[a].attribute], made.values[a + 1]));
     derived.name = options.refine == 0 ? "control mesh " + std::to_string(options.level)
                                        : "surface of level " + std::to_string(options.level);
     Result result;
@@ -192,15 +99,22 @@ Result grid_edit(const Inputs& inputs, const GridEditOptions& options, Session& 
     require(std::all_of(edited.mesh.positions.begin(), edited.mesh.positions.end(),
                         [](const Vec3& p) { return p.allFinite(); }),
             "edited: coordinates are not numbers or infinite");
-    int level = 0;
     const std::vector<GridPyramid> pyramids = pyramids_of(found, options.grid);
-    const DerivedMesh before = matching_level(found, pyramids, layer, edited, session.progress, level);
-    const Positions way = ways_of(*before.positions, in_layer(edited, layer, "edited"));
+    const int level = matching_level(found, pyramids, layer.mesh, edited.mesh, session.progress);
+    const std::vector<Channels> attributes = following(layer, options.attributes);
+    std::vector<Field> fields = fields_of(layer, attributes);
+    const GridLevelMesh before = level_of(found, pyramids, fields, layer.mesh.faces, level, level);
     session.progress.report(0.8, "Following");
-    Positions after = layer.mesh.positions;
-    follow(found, pyramids, layer.mesh.faces, level, way, after);
+    const Faces& faces = layer.mesh.faces;
+    follow(found, pyramids, faces, level, ways_of(before.values[0], in_layer(edited, layer, "edited")), fields[0]);
+    Positions after = positions_of(fields[0]);
     blend(layer.mesh.positions, weights, after);
     result.report.add("level", level);
+    for (std::size_t a = 0; a < attributes.size(); ++a) {
+        const Attribute& attribute = layer.attributes[attributes[a].attribute];
+        follow(found, pyramids, faces, level, ways_of(before.values[a + 1], attribute, edited), fields[a + 1]);
+        result.attributes.push_back(changed_attribute(layer, attributes[a], fields[a + 1], weights, result.report));
+    }
     report_change(layer, after, result.report);
     result.positions = std::move(after);
     return result;

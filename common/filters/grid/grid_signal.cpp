@@ -12,14 +12,10 @@
 namespace multires {
 namespace {
 
-/// Calls visit(i, j, vertex) for the points of a grid that have one.
-template <class Visit>
-void for_points(const Grid& grid, const Visit& visit) {
-    for (Index i = 0; i < grid.rows; ++i)
-        for (Index j = 0; j < grid.columns; ++j) {
-            const Index v = grid.vertex[static_cast<std::size_t>(i) * grid.columns + j];
-            if (v >= 0) visit(i, j, v);
-        }
+Mask mask_of(const Grid& grid) {
+    Mask mask(grid.rows, grid.columns, 0);
+    for (std::size_t p = 0; p < grid.vertex.size(); ++p) mask.values[p] = grid.vertex[p] >= 0;
+    return mask;
 }
 
 }  // namespace
@@ -31,9 +27,13 @@ FoundGrids grids_of(const Layer& layer, const GridOptions& options) {
 }
 
 GridPyramid pyramid_of(const Grid& grid, const GridOptions& options) {
-    const double side = std::sqrt(static_cast<double>(grid.vertices));
-    const int automatic = std::clamp(static_cast<int>(std::floor(std::log2(side / 4))), 1, 16);
-    return GridPyramid(grid, options.basis, options.levels > 0 ? options.levels : automatic);
+    return GridPyramid(grid, options.basis, options.levels > 0 ? options.levels : usual_levels(grid));
+}
+
+std::vector<GridPyramid> pyramids_of(const FoundGrids& found, const GridOptions& options) {
+    std::vector<GridPyramid> pyramids;
+    for (const Grid& grid : found.grids) pyramids.push_back(pyramid_of(grid, options));
+    return pyramids;
 }
 
 std::vector<LevelInfo> level_infos(const GridPyramid& pyramid, const Layer& layer) {
@@ -49,51 +49,45 @@ std::vector<LevelInfo> level_infos(const GridPyramid& pyramid, const Layer& laye
     return infos;
 }
 
-GridSignal::GridSignal(const Grid& grid, const Positions& positions, GridChannels channels) : grid_(grid) {
-    fit(positions);
-    const auto rest = [&](Index i, Index j, Index v) -> Vec3 { return positions[v] - affine(i, j); };
-    if (channels == GridChannels::positions) {
-        axes_ = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
-    } else {
-        // A terrain leaves its affine part along z alone, however it slopes.
-        Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-        double largest = 0;
-        for_points(grid, [&](Index i, Index j, Index v) { largest = std::max(largest, rest(i, j, v).norm()); });
-        if (largest > 0)
-            for_points(grid, [&](Index i, Index j, Index v) {
-                const Vec3 r = rest(i, j, v) / largest;
-                spread += r * r.transpose();
-            });
-        axes_ = {Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2)};
-    }
-    samples_.assign(axes_.size(), Raster(grid.rows, grid.columns, 0));
-    for_points(grid, [&](Index i, Index j, Index v) {
-        const Vec3 r = rest(i, j, v);
-        for (std::size_t c = 0; c < axes_.size(); ++c) samples_[c].row(i)[j] = axes_[c].dot(r);
-    });
+GridSignal::GridSignal(const Grid& grid, const Field& field) : grid_(grid), mask_(mask_of(grid)), fit_(mask_) {
+    take(field);
 }
 
-/// Least squares about the means. A single row of points has no slope across.
-void GridSignal::fit(const Positions& positions) {
-    middle_ = along_i_ = along_j_ = Vec3::Zero();
-    const double share = 1.0 / grid_.vertices;
-    for_points(grid_, [&](Index i, Index j, Index v) {
-        mean_i_ += share * i, mean_j_ += share * j;
-        middle_ += share * positions[v];
-    });
-    double ii = 0, ij = 0, jj = 0;
-    Vec3 pi = Vec3::Zero(), pj = Vec3::Zero();
-    for_points(grid_, [&](Index i, Index j, Index v) {
-        const double a = i - mean_i_, b = j - mean_j_;
-        ii += share * a * a, ij += share * a * b, jj += share * b * b;
-        const Vec3 p = share * (positions[v] - middle_);
-        pi += a * p, pj += b * p;
-    });
-    const double determinant = ii * jj - ij * ij;
-    if (determinant > 1e-9 * (ii + jj)) {
-        along_i_ = (jj * pi - ij * pj) / determinant;
-        along_j_ = (ii * pj - ij * pi) / determinant;
+GridSignal::GridSignal(const Grid& grid, const Positions& positions, GridChannels channels)
+    : GridSignal(grid, field_of(positions)) {
+    axes_ = {Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+    if (channels == GridChannels::heights) project_on_height();
+}
+
+void GridSignal::take(const Field& field) {
+    for (int c = 0; c < field.width; ++c) {
+        Raster samples(grid_.rows, grid_.columns, 0);
+        for (std::size_t p = 0; p < grid_.vertex.size(); ++p)
+            if (mask_.values[p]) samples.values[p] = field.row(grid_.vertex[p])[c];
+        affine_.push_back(fit_.of(mask_, samples));
+        for (Index i = 0; i < grid_.rows; ++i)
+            for (Index j = 0; j < grid_.columns; ++j)
+                if (mask_.row(i)[j]) samples.row(i)[j] -= affine(static_cast<std::size_t>(c), i, j);
+        samples_.push_back(std::move(samples));
     }
+}
+
+/// A terrain leaves its affine part along z alone, however it slopes.
+void GridSignal::project_on_height() {
+    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+    const auto rest = [&](std::size_t p) {
+        return Vec3(samples_[0].values[p], samples_[1].values[p], samples_[2].values[p]);
+    };
+    double largest = 0;
+    for (std::size_t p = 0; p < mask_.values.size(); ++p) largest = std::max(largest, rest(p).norm());
+    for (std::size_t p = 0; largest > 0 && p < mask_.values.size(); ++p) {
+        const Vec3 r = rest(p) / largest;
+        spread += r * r.transpose();
+    }
+    axes_ = {Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2)};
+    Raster heights(grid_.rows, grid_.columns, 0);
+    for (std::size_t p = 0; p < mask_.values.size(); ++p) heights.values[p] = axes_[0].dot(rest(p));
+    samples_ = {std::move(heights)};
 }
 
 std::vector<Raster> GridSignal::change_to(std::vector<Raster> samples) const {
@@ -103,9 +97,15 @@ std::vector<Raster> GridSignal::change_to(std::vector<Raster> samples) const {
 }
 
 void GridSignal::add(const std::vector<Raster>& change, Positions& positions) const {
-    for_points(grid_, [&](Index i, Index j, Index v) {
-        for (std::size_t c = 0; c < axes_.size(); ++c) positions[v] += change[c].row(i)[j] * axes_[c];
-    });
+    for (std::size_t p = 0; p < mask_.values.size(); ++p)
+        for (std::size_t c = 0; mask_.values[p] && c < axes_.size(); ++c)
+            positions[grid_.vertex[p]] += change[c].values[p] * axes_[c];
+}
+
+void GridSignal::add(const std::vector<Raster>& change, Field& field) const {
+    for (std::size_t p = 0; p < mask_.values.size(); ++p)
+        for (std::size_t c = 0; mask_.values[p] && c < change.size(); ++c)
+            field.row(grid_.vertex[p])[c] += change[c].values[p];
 }
 
 }  // namespace multires

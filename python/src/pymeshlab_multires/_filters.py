@@ -7,22 +7,23 @@ from ._call import Array, MeshSet, Vector, also_flat, apply
 
 __all__ = [
     "AdaptiveReconstructionReport", "AttributeChanges", "Basis", "BuildPyramidReport", "Channels",
-    "DenoiseAttributesReport", "DenoiseReport", "DetailFromLayerReport", "DetailToQualityReport",
-    "DetailsByScaleReport", "DifferenceToLayerReport", "EnhanceReport", "EqualizerReport", "FILTERS",
-    "FalloffToQualityReport", "Features", "FilterAttributesReport", "FilterCustomAttributesReport",
-    "GenerateTexcoordReport", "GridBandReport", "GridCompressReport", "GridEditReport", "GridLevelReport", "GridReport",
-    "Grouping", "LIMITS", "LevelAsLayerReport", "LowPassReport", "Mode", "MoveRegionReport", "Movement",
-    "MultibandEditReport", "Operator", "Order", "Pyramid", "PyramidUse", "RelativeTo", "RelaxAttributesReport",
-    "ReliefReport", "Result", "RoughnessReport", "Scheme", "SelectFeaturesReport", "SmoothBaseAsLayerReport", "Split",
-    "StopBandReport", "Storage", "TransferEditReport", "UnsharpReport", "Update", "adaptive_reconstruction",
-    "build_pyramid", "denoise", "denoise_attributes", "detail_from_layer", "detail_to_quality", "details_by_scale",
-    "difference_to_layer", "enhance", "equalizer", "falloff_to_quality", "filter_attributes",
-    "filter_custom_attributes", "generate_texcoord", "grid", "grid_band", "grid_compress", "grid_edit", "grid_level",
+    "CompressGridAttributesReport", "DenoiseAttributesReport", "DenoiseReport", "DetailFromLayerReport",
+    "DetailToQualityReport", "DetailsByScaleReport", "DifferenceToLayerReport", "EnhanceReport", "EqualizerReport",
+    "FILTERS", "FalloffToQualityReport", "Features", "FilterAttributesReport", "FilterCustomAttributesReport",
+    "FilterGridAttributesReport", "GenerateTexcoordReport", "GridBandReport", "GridCompressReport", "GridEditReport",
+    "GridLevelReport", "GridReport", "Grouping", "KeepBy", "LIMITS", "LevelAsLayerReport", "LowPassReport", "Mode",
+    "MoveRegionReport", "Movement", "MultibandEditReport", "Operator", "Oracle", "Order", "Pyramid", "PyramidUse",
+    "RelativeTo", "RelaxAttributesReport", "ReliefReport", "Result", "RoughnessReport", "Scheme",
+    "SelectFeaturesReport", "SmoothBaseAsLayerReport", "Split", "StopBandReport", "Storage", "TransferEditReport",
+    "UnsharpReport", "Update", "adaptive_reconstruction", "build_pyramid", "compress_grid_attributes", "denoise",
+    "denoise_attributes", "detail_from_layer", "detail_to_quality", "details_by_scale", "difference_to_layer",
+    "enhance", "equalizer", "falloff_to_quality", "filter_attributes", "filter_custom_attributes",
+    "filter_grid_attributes", "generate_texcoord", "grid", "grid_band", "grid_compress", "grid_edit", "grid_level",
     "level_as_layer", "low_pass", "move_region", "multiband_edit", "relax_attributes", "relief", "roughness",
     "select_features", "smooth_base_as_layer", "stop_band", "transfer_edit", "unsharp",
 ]
 
-Scheme: TypeAlias = Literal["Roy", "Guskov", "Lazy", "Szczesna"]
+Scheme: TypeAlias = Literal["Roy", "Guskov", "Lazy", "Szczesna", "Dreger"]
 Operator: TypeAlias = Literal[
     "umbrella", "cotangent", "cotangent clamped", "cotangent Delaunay", "second difference",
     "second difference with flaps", "natural neighbours", "thin plate 1-ring", "thin plate 2-ring",
@@ -37,6 +38,8 @@ RelativeTo: TypeAlias = Literal["current shape", "original"]
 Mode: TypeAlias = Literal["low pass", "stop band", "enhance"]
 Channels: TypeAlias = Literal["positions", "heights"]
 Basis: TypeAlias = Literal["linear", "quartic"]
+KeepBy: TypeAlias = Literal["share", "error"]
+Oracle: TypeAlias = Literal["magnitude", "pursuit"]
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True)
@@ -50,7 +53,8 @@ class Pyramid:
             follows when coarse structure is changed. Lazy: vertices that stay keep their values and have no details:
             the least memory and time, but fine noise comes back in coarse levels. Szczesna: lifting that hands the mean
             of what goes to what stays: no more details than vertices, in world axes, and coarse levels that are means.
-            Default: Guskov.
+            Dreger: box-spline wavelets, for triangular grids only (terrains, range maps); levels are octaves of the
+            grid, and operator, presmoothing and how vertices are removed do not apply. Default: Guskov.
         operator: Relaxation operator: how a vertex is predicted from its neighbours. Second differences keep shape
             best; cotangent weights are faster and shrink; the umbrella ignores geometry and lets vertices drift;
             natural neighbours and thin plates interpolate above the vertex's foot in the plane of its neighbours
@@ -758,11 +762,37 @@ class GridLevelReport(Result):
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class GridEditReport(Movement, Result):
+class GridEditReport(Movement, AttributeChanges, Result):
     """What grid_edit() returns."""
 
     level: int
     """The level that the edited layer is a control mesh of."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class FilterGridAttributesReport(AttributeChanges, Result):
+    """What filter_grid_attributes() returns."""
+
+    grids: int
+    """Grids that the layer consists of."""
+    gains: Array
+    """The factor of each level's details, finest first."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class CompressGridAttributesReport(AttributeChanges, Result):
+    """What compress_grid_attributes() returns."""
+
+    kept_coefficients: dict[str, int] = dataclasses.field(default_factory=dict)
+    """Coefficients that were kept. By attribute."""
+    kept_share: dict[str, float] = dataclasses.field(default_factory=dict)
+    """The same, of the vertices of grids (percent). By attribute."""
+    rms_error: dict[str, float] = dataclasses.field(default_factory=dict)
+    """Root of the mean square error before colours are clamped (units of the attribute). By attribute."""
+    largest_error: dict[str, float] = dataclasses.field(default_factory=dict)
+    """The largest error (units of the attribute). By attribute."""
+    error_energy: dict[str, float] = dataclasses.field(default_factory=dict)
+    """Energy of the error, of that of the samples (percent). By attribute."""
 
 
 @also_flat(Pyramid)
@@ -1933,9 +1963,9 @@ def grid_band(
 
 
 def grid_compress(
-    ms: MeshSet, *, keep_by: Literal["share", "error"] = "share", share: float = 10.0, error: float | None = None,
-    oracle: Literal["magnitude", "pursuit"] = "pursuit", channels: Channels = "positions", basis: Basis = "quartic",
-    levels: int = 0, selected: bool | None = None, quality_mask: bool = False,
+    ms: MeshSet, *, keep_by: KeepBy = "share", share: float = 10.0, error: float | None = None,
+    oracle: Oracle = "pursuit", channels: Channels = "positions", basis: Basis = "quartic", levels: int = 0,
+    selected: bool | None = None, quality_mask: bool = False,
 ) -> GridCompressReport:
     """Replaces a triangular grid by what a few of its box-spline wavelets give: a share of them, or as few as an error
     bound allows.
@@ -1971,7 +2001,7 @@ def grid_compress(
 
 
 def grid_level(
-    ms: MeshSet, *, level: int = 1, refine: int = 0, basis: Basis = "quartic", levels: int = 0,
+    ms: MeshSet, *, level: int = 1, refine: int = 0, attributes: bool = True, basis: Basis = "quartic", levels: int = 0,
 ) -> GridLevelReport:
     """Makes a new layer of the control points of a level of a triangular grid, or of the smooth surface that they give,
     at a level as fine as wanted.
@@ -1984,6 +2014,8 @@ def grid_level(
             whole number, at least 0.
         refine: Steps of subdivision: 0 is the control mesh itself; as many as the level give the smooth surface with
             the grid's own vertices; up to three more are finer than the grid. A whole number, at least 0.
+        attributes: Vertex colours, quality and custom attributes are transformed like the shape. Off: they are those of
+            a vertex near.
         basis: Scaling functions and wavelets. Linear: continuous, of two triangles' reach. Quartic: curvature is
             continuous, too.
         levels: How many, at most; fewer on small grids. 0: down to about 4 by 4 points. A whole number, 0 to 16.
@@ -1999,8 +2031,8 @@ def grid_level(
 
 
 def grid_edit(
-    ms: MeshSet, *, edited: int | None = None, basis: Basis = "quartic", levels: int = 0, selected: bool | None = None,
-    quality_mask: bool = False,
+    ms: MeshSet, *, edited: int | None = None, attributes: bool = False, basis: Basis = "quartic", levels: int = 0,
+    selected: bool | None = None, quality_mask: bool = False,
 ) -> GridEditReport:
     """Lets a triangular grid follow its edited control mesh: make one with Grid Level as Layer, move its vertices, and
     the surface moves with them and keeps its detail.
@@ -2011,6 +2043,8 @@ def grid_edit(
         ms: the document.
         edited: A layer made by Grid Level as Layer from the current one, without refinement, whose vertices were moved.
             None: the first other layer.
+        attributes: Vertex colours, quality and custom attributes change where those of the control mesh were changed
+            (painted), too. It must have been made with Attributes of the level.
         basis: Scaling functions and wavelets. Linear: continuous, of two triangles' reach. Quartic: curvature is
             continuous, too.
         levels: How many, at most; fewer on small grids. 0: down to about 4 by 4 points. A whole number, 0 to 16.
@@ -2027,6 +2061,104 @@ def grid_edit(
             ETH Zürich 1999.
     """
     return apply(GridEditReport, "apply_coord_multires_grid_edit", **locals())
+
+
+def filter_grid_attributes(
+    ms: MeshSet, *, color: bool | None = None, quality: bool | None = None, custom: bool | None = None,
+    custom_names: str = "", linear_light: bool = False, gain: float = 0.0,
+    unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength", finest: float | None = None,
+    coarsest: float | None = None, softness: float = 0.0, gains: str = "", basis: Basis = "quartic", levels: int = 0,
+    selected: bool | None = None, quality_mask: bool = False,
+) -> FilterGridAttributesReport:
+    """Weakens, removes or strengthens detail of some sizes of vertex colours, quality and custom attributes on a
+    triangular grid, by box-spline wavelets.
+
+    The geometry stays as it is.
+
+    The filter apply_attributes_multires_grid_band, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        color: With alpha. None: derived from the mesh.
+        quality: The scalar value of the vertices. None: derived from the mesh.
+        custom: Custom scalars and points of the vertices. None: derived from the mesh.
+        custom_names: Which custom attributes: their names, separated by commas. Empty: all, but for source_vertex.
+        linear_light: Decode colours (sRGB) to amounts of light before computing with them, and encode the result. Right
+            for photographs; off, colours are computed with as they are stored, right for colour scales.
+        gain: Factor for the details of the band: 1 changes nothing, 2 doubles them, 0 removes them. A number, 0 to 10.
+        unit: What the limits are given in. Wavelength: length of a wave on the surface in mesh units; the finest a mesh
+            can carry is twice its mean edge length. Wavelength percent: the same, 1 is 1 % of the diagonal of the
+            bounding box. Level: of the pyramid, 0 is the finest. Vertices: how many vertices the level has. Scripts may
+            leave limits out: they are then derived from the mesh, in this unit. In a dialog the numbers shown count.
+        finest: Fine limit of the band, in the unit chosen: short waves, low levels, many vertices. A number, at least
+            0. None: derived from the mesh.
+        coarsest: Coarse limit of the band, in the unit chosen: long waves, high levels, few vertices. A number, at
+            least 0. None: derived from the mesh.
+        softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
+            10.
+        gains: If not empty, in place of gain and limits: a factor for each level, finest first, separated by commas.
+            Levels left out keep 1.
+        basis: Scaling functions and wavelets. Linear: continuous, of two triangles' reach. Quartic: curvature is
+            continuous, too.
+        levels: How many, at most; fewer on small grids. 0: down to about 4 by 4 points. A whole number, 0 to 16.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Dreger, Gross, Schlegel, "Construction of Multiresolution Triangular B-Spline Surfaces using Hexagonal Filters",
+            ETH Zürich 1999.
+    """
+    return apply(FilterGridAttributesReport, "apply_attributes_multires_grid_band", **locals())
+
+
+def compress_grid_attributes(
+    ms: MeshSet, *, color: bool | None = None, quality: bool | None = None, custom: bool | None = None,
+    custom_names: str = "", linear_light: bool = False, keep_by: KeepBy = "share", share: float = 10.0,
+    error: float | None = None, oracle: Oracle = "pursuit", basis: Basis = "quartic", levels: int = 0,
+    selected: bool | None = None, quality_mask: bool = False,
+) -> CompressGridAttributesReport:
+    """Replaces vertex colours, quality and custom attributes on a triangular grid by what a few box-spline wavelets
+    give: a share of them, or as few as an error bound allows.
+
+    The geometry stays as it is.
+
+    The filter apply_attributes_multires_grid_compress, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        color: With alpha. None: derived from the mesh.
+        quality: The scalar value of the vertices. None: derived from the mesh.
+        custom: Custom scalars and points of the vertices. None: derived from the mesh.
+        custom_names: Which custom attributes: their names, separated by commas. Empty: all, but for source_vertex.
+        linear_light: Decode colours (sRGB) to amounts of light before computing with them, and encode the result. Right
+            for photographs; off, colours are computed with as they are stored, right for colour scales.
+        keep_by: What says how many coefficients are kept.
+        share: Coefficients kept, in percent of the number of vertices. A number, 0 to 100.
+        error: How far values may be off, at most, in units of the attribute (a colour as a vector of 0 to 255); as few
+            as do it are kept. A number, at least 0. None: derived from the mesh.
+        oracle: How they are chosen. Magnitude: the largest, at once. Pursuit: those that explain most of what is left,
+            with the best values for all of them; some 100 times slower, half the error.
+        basis: Scaling functions and wavelets. Linear: continuous, of two triangles' reach. Quartic: curvature is
+            continuous, too.
+        levels: How many, at most; fewer on small grids. 0: down to about 4 by 4 points. A whole number, 0 to 16.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Dreger, Gross, Schlegel, "Construction of Multiresolution Triangular B-Spline Surfaces using Hexagonal Filters",
+            ETH Zürich 1999.
+    """
+    return apply(CompressGridAttributesReport, "apply_attributes_multires_grid_compress", **locals())
 
 
 LIMITS: dict[str, dict[str, tuple[float, float]]] = {
@@ -2105,6 +2237,12 @@ LIMITS: dict[str, dict[str, tuple[float, float]]] = {
     "grid_edit": {
         "levels": (0, 16),
     },
+    "filter_grid_attributes": {
+        "gain": (0, 10), "softness": (0, 10), "levels": (0, 16),
+    },
+    "compress_grid_attributes": {
+        "share": (0, 100), "levels": (0, 16),
+    },
 }
 """Least and most of the numbers that have both, by function (or class) and parameter."""
 
@@ -2141,5 +2279,7 @@ FILTERS: dict[str, tuple[str, str]] = {
     "grid_compress": ("apply_coord_multires_grid_compress", "Multiresolution: Grid Compression"),
     "grid_level": ("generate_multires_grid_level", "Multiresolution: Grid Level as Layer"),
     "grid_edit": ("apply_coord_multires_grid_edit", "Multiresolution: Follow Edited Grid Level"),
+    "filter_grid_attributes": ("apply_attributes_multires_grid_band", "Multiresolution: Filter Attributes by Grid Band"),
+    "compress_grid_attributes": ("apply_attributes_multires_grid_compress", "Multiresolution: Compress Attributes on Grid"),
 }
 """By function: the name of its filter in pymeshlab, and the one in MeshLab's menu."""

@@ -36,6 +36,10 @@ struct Channels {
 ///                     the vertex if a value is not finite or too large to be squared
 std::vector<Channels> vertex_channels(const Layer& layer, const AttributeChoice& choice, bool linear_light);
 
+/// Colours, quality and custom scalars and points of the vertices, as they are stored, but for those with a value that
+/// is not finite or too large to be squared: what follows a shape where nothing was chosen.
+std::vector<Channels> usable_channels(const Layer& layer);
+
 /// Between the values of an image file (sRGB, IEC 61966-2-1) and amounts of light, both in 0..255. Values outside are
 /// continued steadily.
 double decode_light(double value);

@@ -1,4 +1,4 @@
-#include "filters/attributes/channels.h"
+#include "filters/channels.h"
 
 #include "base/reduce.h"
 #include "mesh/validation.h"
@@ -141,6 +141,17 @@ std::vector<Channels> vertex_channels(const Layer& layer, const AttributeChoice&
             all.push_back(channels_of(layer, i, linear_light));
     if (all.empty() && !choice.wedge_texcoord)
         throw InputError("no attribute is chosen: turn on color, quality or another one");
+    return all;
+}
+
+std::vector<Channels> usable_channels(const Layer& layer) {
+    std::vector<Channels> all;
+    for (std::size_t i = 0; i < layer.attributes.size(); ++i) {
+        const Attribute& a = layer.attributes[i];
+        if (a.kind == AttributeKind::texcoord || a.name == source_vertex_name) continue;
+        if (std::all_of(a.values.begin(), a.values.end(), [](double x) { return is_usable(x); }))
+            all.push_back(channels_of(layer, i, false));
+    }
     return all;
 }
 
