@@ -14,7 +14,6 @@ import pathlib
 
 import numpy as np
 import pymeshlab
-import rasterio
 
 
 def valid_cells(raster):
@@ -42,6 +41,8 @@ def raster_of(vertices, original, path):
     z, valid = valid_cells(original)
     if valid.sum() != len(vertices):
         raise SystemExit(f"The mesh has {len(vertices)} vertices, the raster {valid.sum()} cells with data.")
+    import rasterio
+
     empty = -9999.0 if original.nodata is None else original.nodata
     z[:] = empty
     z[valid] = vertices[:, 2]
@@ -58,6 +59,8 @@ def main():
     parser.add_argument("target", type=pathlib.Path)
     parser.add_argument("--like", type=pathlib.Path, help="the raster that the mesh was made from")
     arguments = parser.parse_args()
+    import rasterio
+
     ms = pymeshlab.MeshSet(verbose=False)
     if arguments.like:
         ms.load_new_mesh(str(arguments.source))
