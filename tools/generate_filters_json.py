@@ -56,6 +56,8 @@ NAMES = {
                                      "grid level"),
     "apply_coord_multires_grid_edit": ("Transfer Edit of Grid Level",
                                        ["Geometry/Deformation", "Transfer/Between Layers"]),
+    "apply_attributes_multires_grid_band": ("Adjust Attributes of Grid by Band", ["Attribute"]),
+    "apply_attributes_multires_grid_compress": ("Threshold Wavelets of Grid Attributes", ["Attribute"]),
 }  # fmt: skip
 
 ARTICLES = {"the", "a", "an"}
