@@ -233,8 +233,8 @@ Result adaptive_reconstruction(const Layer& input, const AdaptiveOptions& given,
             return reconstructor.make(
                 std::clamp<Index>(std::min(o.vertices, h.vertices()) + h.isolated, least, h.vertices()), o.measure);
         default:
-            return fewest_within([&](Index count) { return reconstructor.make(count, true); }, least, h.vertices(),
-                                 o.target, o.error * unit, rest.part(0.7, 0.98));
+            return fewest_within([&](Index count, const Progress&) { return reconstructor.make(count, true); }, least,
+                                 h.vertices(), o.target, o.error * unit, rest.part(0.7, 0.98));
         }
     }();
     rest.report(0.98, "Making the layer");

@@ -68,8 +68,8 @@ std::optional<Result> moving_reconstruction(const Layer& layer, const AdaptiveOp
     } else {
         const double most = o.error * (o.unit == LengthUnit::percent ? box_diagonal(layer) / 100 : 1);
         bool barred = false;
-        const auto make = [&](Index count) {
-            Reconstruction made = maker.make({count, 0}, Progress());
+        const auto make = [&](Index count, const Progress& step) {
+            Reconstruction made = maker.make({count, 0}, step);
             barred |= made.count > count;
             return made;
         };

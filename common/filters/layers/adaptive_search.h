@@ -19,7 +19,7 @@ struct Reconstruction {
 };
 
 /// The reconstruction of the fewest vertices found, by bisection, whose distance is within a bound.
-/// @param make   Reconstruction(Index count), measured; that of `most` is the input
+/// @param make   Reconstruction(Index count, const Progress&), measured; that of `most` is the input
 template <class Make>
 Reconstruction fewest_within(const Make& make, Index least, Index most, Target target, double bound,
                              const Progress& progress) {
@@ -27,8 +27,9 @@ Reconstruction fewest_within(const Make& make, Index least, Index most, Target t
     std::optional<Reconstruction> best;
     constexpr int steps = 14;
     for (int i = 0; i < steps && low < high; ++i) {
-        progress.report(static_cast<double>(i) / steps, "Searching the threshold");
-        Reconstruction r = make(static_cast<Index>(next));
+        const Progress step = progress.part(static_cast<double>(i) / steps, (i + 1.0) / steps);
+        step.report(0, "Searching the threshold");
+        Reconstruction r = make(static_cast<Index>(next), step);
         const double off = target == Target::rms_distance ? r.distance->rms : r.distance->largest;
         if (off <= bound) {
             high = r.count;
@@ -43,7 +44,7 @@ Reconstruction fewest_within(const Make& make, Index least, Index most, Target t
         next = std::clamp(next, low, high);
         if (next >= high && best) next = std::max(low, high - 1);
     }
-    return best ? std::move(*best) : make(most);
+    return best ? std::move(*best) : make(most, progress.part(1, 1));
 }
 
 /// Whether vertices are moved while others are removed, in place of moving those that are left: AdaptiveOptions::fit
