@@ -53,5 +53,43 @@ def test_a_control_mesh_is_edited_and_the_grid_follows_with_its_colours():
     np.testing.assert_array_equal(ms.current_mesh().vertex_color_matrix(), colors)
 
 
+def test_what_is_painted_on_a_control_mesh_changes_the_grid():
+    ms = rich_grid()
+    grid = ms.current_mesh_id()
+    mesh = ms.current_mesh()
+    mesh.add_vertex_custom_scalar_attribute(mesh.vertex_matrix()[:, 2], "height")
+    before, positions, scalar = mesh.vertex_color_matrix(), mesh.vertex_matrix(), mesh.vertex_scalar_array()
+    height = mesh.vertex_custom_scalar_attribute_array("height")
+    ms.apply_filter("generate_multires_grid_level", level=1)
+    control = ms.current_mesh_id()
+    np.testing.assert_allclose(ms.current_mesh().vertex_custom_scalar_attribute_array("height"),
+                               ms.current_mesh().vertex_matrix()[:, 2], rtol=0, atol=1e-12)  # fmt: skip
+    edit = {"edited": control, "attributes": True, "selected": False}
+    ms.set_current_mesh(grid)
+    report = ms.apply_filter("apply_coord_multires_grid_edit", **edit)
+    assert report["color_largest_change"] == report["quality_largest_change"] == 0
+    ms.set_current_mesh(control)
+    ms.compute_scalar_by_function_per_vertex(q="q + 3")
+    ms.set_current_mesh(grid)
+    report = ms.apply_filter("apply_coord_multires_grid_edit", **edit)
+    assert report["color_largest_change"] == report["custom_height_largest_change"] == 0
+    mesh = ms.current_mesh()
+    np.testing.assert_allclose(mesh.vertex_scalar_array(), scalar + 3, rtol=0, atol=1e-5)
+    np.testing.assert_array_equal(mesh.vertex_color_matrix(), before)
+    np.testing.assert_array_equal(mesh.vertex_matrix(), positions)
+    np.testing.assert_array_equal(mesh.vertex_custom_scalar_attribute_array("height"), height)
+
+
+@pytest.mark.parametrize("name", ["apply_coord_multires_stop_band", "apply_attributes_multires_band"])
+def test_the_scheme_of_grids_is_refused_by_name_elsewhere(name):
+    grid, sphere = rich_grid(), rich_sphere()
+    how = {"scheme": "Dreger", "method": "pyramid"}
+    grid.apply_filter(name, **how)
+    before = snapshot(sphere)
+    with pytest.raises(Error, match="scheme: Dreger is for triangular grids"):
+        sphere.apply_filter(name, **how)
+    assert differences(before, snapshot(sphere)) == []
+
+
 def test_there_is_a_filter_of_two_layers():
     assert [name for name in GRID if wants_another_layer(name)] == ["apply_coord_multires_grid_edit"]
