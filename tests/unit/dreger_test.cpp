@@ -10,6 +10,7 @@
 #include "filter_fixtures.h"
 #include "measure/measure.h"
 #include "scheme_fixtures.h"
+#include "suited.h"
 
 #include <gtest/gtest.h>
 
@@ -141,6 +142,28 @@ TEST(Dreger, SeveralGridsAndVerticesInNoneComeBack) {
     EXPECT_LT(largest_distance(pyramid.synthesise({}), mesh.positions), 1e-12);
     const std::vector<double> none(pyramid.hierarchy().levels.size(), 0);
     EXPECT_EQ(pyramid.synthesise(none).back(), Vec3(7, 7, 7));
+}
+
+TEST(Dreger, DamagedGridsComeBackOrAreRefused) {
+    int worked = 0, levels = 0;
+    for (std::uint64_t seed = 1; seed <= 120; ++seed) {
+        SCOPED_TRACE(seed);
+        const Layer layer = layer_of(plugin::random_grid(seed));
+        PyramidOptions options = dreger();
+        options.hierarchy.base_vertices = 4, options.hierarchy.seed = static_cast<int>(seed % 3);
+        Session session;
+        Report report;
+        try {
+            const auto pyramid = pyramid_of(layer, options, session, report);
+            EXPECT_LT(largest_distance(pyramid->synthesise({}), layer.mesh.positions), 1e-11);
+            levels += static_cast<int>(pyramid->hierarchy().levels.size());
+            ++worked;
+        } catch (const InputError& e) {
+            EXPECT_EQ(std::string(e.what()).find("scheme: Dreger"), 0u) << e.what();
+        }
+    }
+    EXPECT_GT(worked, 60);
+    EXPECT_GT(levels, worked / 2);
 }
 
 TEST(Dreger, TakesMostOfTheNoiseOfATerrain) {
