@@ -28,7 +28,7 @@ shapes::GridShape with_hole() {
     return shape;
 }
 
-Positions band(const Layer& layer, GridBandOptions options) {
+Positions band(const Layer& layer, const GridBandOptions& options) {
     Session session;
     return *grid_band(layer, options, session).positions;
 }
