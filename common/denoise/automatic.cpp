@@ -273,7 +273,7 @@ Shares safe_shares(const WithinSurface& within, const Choice& choice) {
     Shares shares;
     if (sharp_share(choice.weights) > 0.9) shares.turning = 0;
     const double smoothed = mean_square(within.smoothing), turned = shares.turning * mean_square(within.turning);
-    double allowed = 0.25 * choice.gain;
+    double allowed = (within.likely ? 0.8 : 0.25) * choice.gain;
     if (within.noisy) {
         allowed += 0.9 * std::max(0.0, within.before * within.before - within.after * within.after);
         if (turned > allowed) shares.turning = std::sqrt(allowed / turned);

@@ -37,13 +37,11 @@ Response of_low_pass(const std::vector<double>& low) {
 
 std::vector<Candidate> all_candidates() {
     std::vector<Candidate> all;
-    const auto add = [&](Family family, std::size_t count) {
-        for (std::size_t i = 0; i < count; ++i) all.push_back({family, static_cast<int>(i)});
+    const auto add = [&](Family family, std::size_t count, Smoother smoother = Smoother::equal) {
+        for (std::size_t i = 0; i < count; ++i) all.push_back({family, static_cast<int>(i), smoother});
     };
-    add(Family::equal_low_pass, low_pass_steps.size());
-    add(Family::cotangent_low_pass, low_pass_steps.size());
-    add(Family::equal_wiener, wiener_severity.size());
-    add(Family::cotangent_wiener, wiener_severity.size());
+    for (const Smoother s : smoothers) add(Family::low_pass, low_pass_steps.size(), s);
+    for (const Smoother s : smoothers) add(Family::wiener, wiener_severity.size(), s);
     add(Family::normal_field, field_strength.size());
     add(Family::guided_normals, guided_steps_after.size());
     return all;
@@ -57,8 +55,35 @@ CandidateMaker::CandidateMaker(const Faces& faces, const Positions& positions, c
     parallel_for(near.rows(), [&](Index v) { probe_[v] = deviation[v] * gaussian(v, 7); });
 }
 
-CandidateMaker::LowPasses CandidateMaker::low_passes(bool cotangents) const {
-    const AlongNormals surface(near_, positions_, normal_, cotangents ? weight_ : std::vector<double>());
+CandidateMaker::LowPasses CandidateMaker::low_passes(Smoother smoother, bool with_probe) const {
+    if (smoother == Smoother::spatial) return spatial(with_probe);
+    return along_normals(smoother == Smoother::cotangent ? weight_ : std::vector<double>());
+}
+
+CandidateMaker::LowPasses CandidateMaker::spatial(bool with_probe) const {
+    LowPasses low(low_pass_steps.size(), std::vector<double>(3 * probe_.size()));
+    for (int channel = 0; channel < 3; ++channel) {
+        if (channel == 1 && !with_probe) continue;
+        Positions start = positions_;
+        if (channel > 0)
+            parallel_for(near_.rows(), [&](Index v) {
+                start[v] = (channel == 1 ? probe_[v] : deviation_[v] * gaussian(v, 8)) * normal_[v];
+            });
+        Positions p = start;
+        int done = 0;
+        for (std::size_t level = 0; level < low.size(); ++level) {
+            p = taubin(near_, std::move(p), low_pass_steps[level] - done, -0.5);
+            done = low_pass_steps[level];
+            parallel_for(near_.rows(), [&](Index v) {
+                low[level][3 * static_cast<std::size_t>(v) + channel] = normal_[v].dot(p[v] - start[v]);
+            });
+        }
+    }
+    return low;
+}
+
+CandidateMaker::LowPasses CandidateMaker::along_normals(const std::vector<double>& weight) const {
+    const AlongNormals surface(near_, positions_, normal_, weight);
     LowPasses low;
     std::vector<double> start(3 * probe_.size(), 0);
     for (std::size_t i = 0; i < probe_.size(); ++i) {
@@ -157,12 +182,12 @@ CandidateMaker::Responses CandidateMaker::responses(const std::function<void(dou
     Responses out;
     std::vector<Response>& all = out.all;
     std::vector<Response> wieners;
-    for (const bool cotangents : {false, true}) {
-        const LowPasses low = low_passes(cotangents);
-        tick(cotangents ? 0.2 : 0.05);
+    for (const Smoother smoother : smoothers) {
+        const LowPasses low = low_passes(smoother, true);
+        tick(0.05 + 0.1 * static_cast<double>(smoother));
         const std::vector<Band> split = bands(low);
         for (const double severity : wiener_severity) wieners.push_back(wiener(low, split, severity));
-        tick(cotangents ? 0.3 : 0.15);
+        tick(0.1 + 0.1 * static_cast<double>(smoother));
         for (const auto& l : low) all.push_back(of_low_pass(l));
     }
     std::move(wieners.begin(), wieners.end(), std::back_inserter(all));
@@ -191,29 +216,30 @@ void CandidateMaker::add_guided(Responses& responses, const std::function<void(d
     }
 }
 
-bool CandidateMaker::needs(const Eigen::VectorXd& weights, Family family) const {
+void CandidateMaker::add_heights(const Eigen::VectorXd& weights, Smoother smoother, std::vector<double>& height) const {
     const std::vector<Candidate> all = all_candidates();
-    for (std::size_t k = 0; k < all.size(); ++k)
-        if (all[k].family == family && weights[k] > 0) return true;
-    return false;
+    bool low_pass = false, shrunk = false;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        low_pass |= weights[k] > 0 && all[k].is(Family::low_pass, smoother);
+        shrunk |= weights[k] > 0 && all[k].is(Family::wiener, smoother);
+    }
+    if (!low_pass && !shrunk) return;
+    const LowPasses low = low_passes(smoother, false);
+    const std::vector<Band> split = shrunk ? bands(low) : std::vector<Band>();
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        if (!(weights[k] > 0)) continue;
+        if (all[k].is(Family::low_pass, smoother)) add_scaled(height, weights[k], of_low_pass(low[all[k].index]));
+        if (all[k].is(Family::wiener, smoother))
+            add_scaled(height, weights[k], wiener(low, split, wiener_severity[all[k].index]));
+    }
 }
 
 Positions CandidateMaker::blend(const Eigen::VectorXd& weights, const std::function<void(double)>& tick) const {
     const std::vector<Candidate> all = all_candidates();
     std::vector<double> height(2 * probe_.size(), 0);
-    for (const bool cotangents : {false, true}) {
-        const Family low_pass = cotangents ? Family::cotangent_low_pass : Family::equal_low_pass;
-        const Family shrunk = cotangents ? Family::cotangent_wiener : Family::equal_wiener;
-        if (!needs(weights, low_pass) && !needs(weights, shrunk)) continue;
-        const LowPasses low = low_passes(cotangents);
-        const std::vector<Band> split = needs(weights, shrunk) ? bands(low) : std::vector<Band>();
-        for (std::size_t k = 0; k < all.size(); ++k) {
-            if (!(weights[k] > 0)) continue;
-            if (all[k].family == low_pass) add_scaled(height, weights[k], of_low_pass(low[all[k].index]));
-            if (all[k].family == shrunk)
-                add_scaled(height, weights[k], wiener(low, split, wiener_severity[all[k].index]));
-        }
-        tick(cotangents ? 0.4 : 0.2);
+    for (const Smoother smoother : smoothers) {
+        add_heights(weights, smoother, height);
+        tick(0.15 + 0.12 * static_cast<double>(smoother));
     }
     Positions out = positions_;
     for (std::size_t i = 0; i < out.size(); ++i) out[i] += height[2 * i] * normal_[i];
@@ -221,7 +247,8 @@ Positions CandidateMaker::blend(const Eigen::VectorXd& weights, const std::funct
     const auto add = [&](double weight) {
         for (std::size_t i = 0; i < out.size(); ++i) out[i] += weight * (after[i] - positions_[i]);
     };
-    const bool guided = needs(weights, Family::guided_normals);
+    bool guided = false;
+    for (std::size_t k = 0; k < all.size(); ++k) guided |= all[k].family == Family::guided_normals && weights[k] > 0;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const bool last = all[k].index + 1 == field_strength.size();
         if (all[k].family != Family::normal_field || !(weights[k] > 0 || (guided && last))) continue;

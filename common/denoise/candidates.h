@@ -10,7 +10,9 @@
 /// The denoised versions of a surface between which the risk decides.
 namespace multires {
 
-/// Linear low passes along the normals: Taubin's steps with equal weights, and with cotangents.
+/// Linear low passes, Taubin's steps: along the normals with equal weights and with cotangents, and of the places with
+/// equal weights, of which only what goes along the normals is used. While the places are smoothed their sampling
+/// becomes even, so that bends do not look like details where it is not; where it is by design cotangents are better.
 constexpr std::array<int, 6> low_pass_steps = {1, 2, 5, 12, 30, 80};
 /// Wiener filters: between the low passes, each band shrunk locally by 1 - severity x noise energy / energy.
 constexpr std::array<double, 3> wiener_severity = {1, 1.5, 2.5};
@@ -19,12 +21,18 @@ constexpr std::array<double, 2> field_strength = {0.6, 1};
 /// Steps of guided normals (normals/guided_normals.h) after the last of these.
 constexpr std::array<int, 2> guided_steps_after = {2, 8};
 
-enum class Family { equal_low_pass, cotangent_low_pass, equal_wiener, cotangent_wiener, normal_field, guided_normals };
+enum class Smoother { equal, cotangent, spatial };
+constexpr std::array<Smoother, 3> smoothers = {Smoother::equal, Smoother::cotangent, Smoother::spatial};
+
+enum class Family { low_pass, wiener, normal_field, guided_normals };
 
 /// What one candidate is; `index` into the family's array.
 struct Candidate {
     Family family;
     int index;
+    Smoother smoother = Smoother::equal;  ///< of low passes and Wiener filters
+
+    bool is(Family f, Smoother s) const { return family == f && smoother == s; }
 };
 
 /// All of them, in the order of their weights.
@@ -56,8 +64,12 @@ public:
 
 private:
     using LowPasses = std::vector<std::vector<double>>;  ///< #V by 3 each: moves of the surface and of two noises
-    bool needs(const Eigen::VectorXd& weights, Family family) const;
-    LowPasses low_passes(bool cotangents) const;
+    /// @param with_probe  false: the response to the probe may be left 0
+    LowPasses low_passes(Smoother smoother, bool with_probe) const;
+    LowPasses along_normals(const std::vector<double>& weight) const;
+    LowPasses spatial(bool with_probe) const;
+    /// Adds the linear candidates and those made of them.
+    void add_heights(const Eigen::VectorXd& weights, Smoother smoother, std::vector<double>& height) const;
     /// What lies between two low passes, of all three channels.
     struct Band {
         std::vector<double> detail;  ///< #V by 3

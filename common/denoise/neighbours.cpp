@@ -101,10 +101,10 @@ std::vector<double> cotangent_weights(const Faces& faces, const Incidence& at, c
     return weight;
 }
 
-Positions taubin(const Neighbours& near, Positions p, int steps) {
+Positions taubin(const Neighbours& near, Positions p, int steps, double outwards) {
     Positions next(p.size());
     for (int step = 0; step < 2 * steps; ++step) {
-        const double factor = step % 2 == 0 ? 0.5 : -0.53;
+        const double factor = step % 2 == 0 ? 0.5 : outwards;
         parallel_for(near.rows(), [&](Index v) {
             Vec3 sum = Vec3::Zero();
             for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) sum += p[near.vertex[k]];

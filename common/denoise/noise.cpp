@@ -53,7 +53,8 @@ std::vector<Index> inner_vertices(const Neighbours& near) {
 struct Findings {
     double quiet_first = 0, quiet_third = 0;  ///< energies that are there everywhere; first details hold bends, too
     double without_bends = 0;                 ///< see energies.h
-    double mean = 0, median = 0, low = 0;     ///< of the third details; low: of the quietest tenth
+    double mean = 0, median = 0;              ///< of the third details
+    double lower = 0, low = 0;                ///< what three tenths, and one tenth, of them stay below
     double peakedness = 0;                    ///< of the third details
     std::optional<AxisNoise> axis;
     double peakedness_along_axis = 0;  ///< of the third details, beside noise along the axis
@@ -84,6 +85,7 @@ Findings findings(const Faces& faces, const Positions& p, const Incidence& at, c
         if (repeat == 0) mean.axis = axis_noise(near, base.normal, inner, energy, bends);
         mean.mean += energy.mean() / repeats;
         mean.median += energy.quantile(0.5) / repeats;
+        mean.lower += energy.quantile(0.3) / repeats;
         mean.low += energy.quantile(0.1) / repeats;
         mean.peakedness += peakedness(third, squares, inner) / repeats;
     }
@@ -121,11 +123,14 @@ double like_noise(double peakedness) {
     return std::clamp((not_from - peakedness) / (not_from - gaussian_up_to), 0.0, 1.0);
 }
 
-/// Least square of the deviation.
-double least_square(double square, const Findings& f, Index vertices) {
+/// Least square of the deviation. Details elsewhere may be creases, which noise of some strength cannot be taken for:
+/// then three tenths of the surface tell enough.
+double least_square(double square, const Findings& f, Index vertices, double edge) {
     constexpr double elsewhere = 0.5;
     const double by_chance = std::max(0.5, 1 - 6 / std::sqrt(static_cast<double>(vertices)));
-    return like_noise(f.peakedness) * std::max(0.0, by_chance * square - elsewhere * std::max(0.0, f.mean - square));
+    const double weak = std::clamp((0.05 - std::sqrt(square) / edge) / 0.01, 0.0, 1.0);
+    const double others = f.lower + weak * (f.mean - f.lower);
+    return like_noise(f.peakedness) * std::max(0.0, by_chance * square - elsewhere * std::max(0.0, others - square));
 }
 
 /// Noise along an axis explains much of the energies, so that it is as certain as their kind.
@@ -139,25 +144,20 @@ void add_axis(const Findings& f, const Array<Vec3>& normal, SurfaceNoise& noise)
     noise.at_least = std::max(noise.at_least, std::sqrt(certain * like_noise(f.peakedness_along_axis) * square));
 }
 
-/// Detail of the places, twice: like AlongNormals::detail with equal weights, for vectors.
-Positions second_detail(const Neighbours& near, const Positions& p) {
-    Positions from = p, out(p.size());
-    for (int order = 0; order < 2; ++order) {
-        parallel_for(near.rows(), [&](Index v) {
-            Vec3 sum = Vec3::Zero();
-            for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) sum += from[v] - from[near.vertex[k]];
-            out[v] = near.size(v) > 0 ? Vec3(sum / near.size(v)) : Vec3(Vec3::Zero());
-        });
-        from.swap(out);
-    }
-    return from;
+/// Detail of the places: like AlongNormals::detail with equal weights, for vectors.
+Positions detail_of(const Neighbours& near, const Positions& p) {
+    Positions out(p.size());
+    parallel_for(near.rows(), [&](Index v) {
+        Vec3 sum = Vec3::Zero();
+        for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) sum += p[v] - p[near.vertex[k]];
+        out[v] = near.size(v) > 0 ? Vec3(sum / near.size(v)) : Vec3(Vec3::Zero());
+    });
+    return out;
 }
 
-double within_surface(const Positions& p, const Neighbours& near, const Array<Vec3>& normal) {
-    const Positions detail = second_detail(near, p);
-    Positions noise(p.size());
-    for (Index v = 0; v < near.rows(); ++v) noise[v] = Vec3(gaussian(v, 3), gaussian(v, 4), 0);
-    noise = second_detail(near, noise);
+/// Energies of the parts of details within the surface, beside those of noise.
+Energies energies_within(const Positions& detail, const Positions& noise, const Neighbours& near,
+                         const Array<Vec3>& normal) {
     std::vector<double> sizes(3 * near.rows());
     for (Index v = 0; v < near.rows(); ++v) {
         const double along = normal[v].dot(detail[v]);
@@ -165,7 +165,31 @@ double within_surface(const Positions& p, const Neighbours& near, const Array<Ve
         sizes[3 * v + 1] = noise[v].x();
         sizes[3 * v + 2] = noise[v].y();
     }
-    return std::sqrt(local_energies(near, local_squares(near, sizes), inner_vertices(near)).quantile(0.1));
+    return local_energies(near, local_squares(near, sizes), inner_vertices(near));
+}
+
+/// What third details within the surface tell of noise there. If they have just the energy of the noise along the
+/// normals, from the quietest tenth to the middle of the surface, they are likely to be noise: a sampling that is
+/// irregular by nature is mostly so by another amount, and not by the same everywhere. Where they have more, the rest
+/// is the sampling's: a rest that varies more over the surface than samplings do says that there is no such noise.
+void find_within_surface(const Positions& p, const Neighbours& near, const Array<Vec3>& normal, SurfaceNoise& found) {
+    constexpr double least = 0.93, most = 1.15, even = 1.09;
+    constexpr double variation = 3, by_chance = 0.12;  // of the rests' squares
+    Positions noise(p.size());
+    for (Index v = 0; v < near.rows(); ++v) noise[v] = Vec3(gaussian(v, 3), gaussian(v, 4), 0);
+    Positions detail = p;
+    for (int order = 0; order < 3; ++order) {
+        detail = detail_of(near, detail);
+        noise = detail_of(near, noise);
+    }
+    const Energies third = energies_within(detail, noise, near, normal);
+    found.within_surface = std::sqrt(third.quantile(0.1));
+    found.maybe_all = found.axis.has_value();  // it is known to cross the surface
+    if (found.axis || !(found.along_normals > 0)) return;
+    const double square = found.along_normals * found.along_normals;
+    const double low = third.quantile(0.1) / square, middle = third.quantile(0.5) / square;
+    found.likely_all = low > least * least && low < most * most && middle < even * even * low;
+    found.maybe_all = low > least * least && middle - 1 < variation * std::max(0.0, low - 1) + by_chance;
 }
 
 }  // namespace
@@ -187,10 +211,10 @@ SurfaceNoise surface_noise(const Faces& faces, const Positions& positions, const
     const double deviation =
         agreed(quiet_deviation(found, near.rows(), edge), std::sqrt(found.without_bends), near.rows(), edge);
     noise.along_normals = deviation;
-    noise.at_least = std::sqrt(least_square(deviation * deviation, found, near.rows()));
+    noise.at_least = std::sqrt(least_square(deviation * deviation, found, near.rows(), edge));
     const Array<Vec3> normal = smoothed(faces, positions, near, 3).normal;
     add_axis(found, normal, noise);
-    noise.within_surface = within_surface(positions, near, normal);
+    find_within_surface(positions, near, normal, noise);
     return noise;
 }
 
@@ -199,7 +223,7 @@ std::optional<SurfaceNoise> rounding_noise(const Faces& faces, const Positions& 
     constexpr double least = 0.2, most = 6;
     SurfaceNoise noise;
     noise.along_normals = noise.at_least = noise.within_surface = step / std::sqrt(12.0);
-    noise.everywhere = true;
+    noise.all_directions = true;
     const Findings found = findings(faces, positions, at, near, edge, noise.along_normals > 0.12 * edge ? 8 : 3);
     const double square = noise.along_normals * noise.along_normals;
     // Steps as large as the edges make terraces, which are even; small ones do not.

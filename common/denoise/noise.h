@@ -13,7 +13,9 @@ struct SurfaceNoise {
     /// Of the vertices' places within the surface in each of two directions, mesh units: an upper bound of the noise
     /// there, for an irregular sampling looks the same.
     double within_surface = 0;
-    bool everywhere = false;  ///< it is known to go in all directions
+    bool all_directions = false;  ///< it is known to go in all directions
+    bool maybe_all = false;       ///< the vertices' places within the surface do not speak against that
+    bool likely_all = false;      ///< they are just as irregular as the noise would make them
     /// Beside the former two, which are what there is of it in all directions.
     std::optional<AxisNoise> axis;
 

@@ -16,6 +16,7 @@ namespace {
 constexpr std::array<int, 5> low_passes = {1, 3, 8, 20, 50};  ///< steps
 constexpr std::size_t even_sampling = 3;                      ///< of the low passes: makes the sampling even
 constexpr int turning_steps = 10;
+constexpr double farthest_turned = 1;  ///< deviations of the noise: what noise has not moved so far is not to come back
 
 /// A face is bad if its normal is turned from that of its vertices by an angle with less than this cosine, or if its
 /// area is less than this share of its squared sides (0.577 for equal sides, halved).
@@ -122,12 +123,13 @@ Positions noise_within(const Positions& p, const Neighbours& near, const Array<V
 /// does once the sampling was made even, and more if the sampling is uneven; faces that are folded by nature spoil this
 /// where it is weak, so the evidence must be stronger where the sampling alone would explain the places.
 void judge(const Faces& faces, const Positions& p, const Positions& more, const Positions& to_even,
-           const Array<Vec3>& normal, double irregular, WithinSurface& out) {
+           const Array<Vec3>& normal, const SurfaceNoise& noise, WithinSurface& out) {
     Positions even = p;
     for (std::size_t i = 0; i < p.size(); ++i) even[i] += to_even[i] + more[i];
     const double folded = folded_share(faces, p, normal), expected = folded_share(faces, even, normal);
-    out.noisy = folded > 0.001 && folded > (irregular < 1.3 ? 0.6 : 1.2) * expected;
+    out.noisy = folded > 0.001 && folded > (noise.within_surface < 1.3 * noise.along_normals ? 0.6 : 1.2) * expected;
     out.perhaps = !out.noisy && folded >= 0.3 * expected;
+    out.likely = out.perhaps && noise.likely_all && folded >= 0.6 * expected;
 }
 
 /// The blend of the low passes with the least estimated error.
@@ -179,22 +181,26 @@ WithinSurface relax_within_surface(const Faces& faces, const Positions& position
     Positions p = positions;
     for (std::size_t i = 0; i < p.size(); ++i) p[i] += h[3 * i] * normal[i];
 
-    const double irregular = noise.within_surface / deviation;
-    if (noise.everywhere || (irregular >= 0.95 && deviation >= 0.08 * edge)) {
+    const bool judged = noise.maybe_all && deviation >= 0.08 * edge;
+    if (noise.all_directions || noise.likely_all || judged) {
         const Positions more = noise_within(p, near, normal, deviation);
         std::vector<Positions> low;
         smooth_within(p, near, normal, even_sampling + 1, low);
-        if (noise.everywhere)
-            out.noisy = true;
-        else
-            judge(faces, p, more, low[even_sampling], normal, irregular, out);
+        out.noisy = noise.all_directions;
+        if (judged && !out.noisy) judge(faces, p, more, low[even_sampling], normal, noise, out);
+        if (!judged && !out.noisy) out.perhaps = out.likely = true;
         if (out.noisy || out.perhaps) smooth_noise(p, more, near, normal, deviation, low, out);
     }
     Positions q = p;
     for (std::size_t i = 0; i < p.size(); ++i) q[i] += out.smoothing[i];
     const Positions r =
         turned_back(faces, q, near, normal, out.noisy || deviation > 0.15 * edge ? Bad{0.8, 0.0577} : Bad{0.5, 0.03});
-    for (std::size_t i = 0; i < p.size(); ++i) out.turning[i] = r[i] - q[i];
+    const double farthest = farthest_turned * deviation;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        out.turning[i] = r[i] - q[i];
+        const double length = out.turning[i].norm();
+        if (length > farthest) out.turning[i] *= farthest / length;
+    }
     return out;
 }
 

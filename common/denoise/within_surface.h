@@ -11,14 +11,16 @@ struct WithinSurface {
     Positions turning;     ///< #V by 3: shifts that turn folded and thin faces back, after those
     bool noisy = false;    ///< noise goes in all directions; otherwise only folded faces were turned back
     bool perhaps = false;  ///< the sampling looks like it, but may be irregular by nature
+    bool likely = false;   ///< the same, with more to say for it
     double before = 0;     ///< RMS error within the surface, estimated: 0 unless `noisy` or `perhaps`
     double after = 0;      ///< the same once `smoothing` is applied
 };
 
 /// Whether there is noise within the surface cannot be seen where the sampling is irregular: it is believed if the
 /// places of the vertices are irregular enough, and more noise of the same size would not fold many times as many
-/// faces as are folded. It is then removed by Taubin's low passes within the surface, blended with least estimated risk
-/// (as along the normals, see risk.h).
+/// faces as are folded. Noise too weak to fold faces is likely if the places are just as irregular as it makes them. It
+/// is then removed by Taubin's low passes within the surface, blended with least estimated risk (as along the normals,
+/// see risk.h).
 /// @param normal  #V by 3, smoothed
 WithinSurface relax_within_surface(const Faces& faces, const Positions& positions, const Neighbours& near,
                                    const SurfaceNoise& noise, double edge);

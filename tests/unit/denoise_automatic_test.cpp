@@ -102,6 +102,22 @@ TEST(AutomaticDenoise, LeavesMostNoiseOfSmoothShapesBehind) {
         }
 }
 
+TEST(AutomaticDenoise, RemovesWeakNoiseWithinTheSurfaceToo) {
+    const Mesh truth = shapes::torus(80, 36);
+    const Mesh mesh = noisy(truth, Model::all_directions, 0.05);
+    const double before = rms_distance(mesh.positions, truth.positions);
+    // Along the normals alone 0.82 of the distance would be left.
+    EXPECT_LT(rms_distance(denoised(mesh), truth.positions), 0.7 * before);
+}
+
+TEST(AutomaticDenoise, BelievesNoiseBetweenManyCreases) {
+    const Mesh truth = shapes::block(7);
+    const Mesh mesh = noisy(truth, Model::along_normals, 0.07);
+    const Error before = error_of(truth, mesh.positions), after = error_of(truth, denoised(mesh));
+    EXPECT_LT(after.angle, 0.5 * before.angle);
+    EXPECT_LT(after.rms, 0.8 * before.rms);
+}
+
 TEST(AutomaticDenoise, KnowsTheNoise) {
     for (const Shape& shape : clean_shapes())
         for (const double deviation : {0.03, 0.1, 0.3, 0.5}) {

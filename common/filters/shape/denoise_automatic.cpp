@@ -21,12 +21,10 @@ Shares shares_of(const Eigen::VectorXd& weights) {
     for (std::size_t k = 0; k < all.size(); ++k) {
         const double t = weights[static_cast<Eigen::Index>(k)];
         switch (all[k].family) {
-        case Family::equal_low_pass:
-        case Family::cotangent_low_pass:
+        case Family::low_pass:
             shares.linear += t;
             break;
-        case Family::equal_wiener:
-        case Family::cotangent_wiener:
+        case Family::wiener:
             shares.wiener += t;
             break;
         case Family::normal_field:
