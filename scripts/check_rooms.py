@@ -22,7 +22,9 @@ COMMON = {
     "denoise": ["base", "mesh", *FLOOR],
     "grids": ["base", "mesh"],
     "stream": ["base", "mesh", "measure", "hierarchy"],
-    "filters": ["base", "mesh", *FLOOR, "solvers", "bands", "schemes", "pyramid", "denoise", "editing", "grids"],
+    "watermark": ["base", "mesh", "measure"],
+    "filters": ["base", "mesh", *FLOOR, "solvers", "bands", "schemes", "pyramid", "denoise", "editing", "grids",
+                "watermark"],
 }
 PLUGINS = {
     "shared": list(COMMON),

@@ -22,6 +22,8 @@ FUNCTIONS = {
     "apply_coord_multires_unsharp": "unsharp",
     "apply_coord_multires_denoise": "denoise",
     "apply_coord_multires_transfer_edit": "transfer_edit",
+    "apply_coord_multires_watermark": "watermark",
+    "compute_multires_watermark": "read_watermark",
     "apply_coord_multires_displace": "move_region",
     "compute_scalar_multires_falloff_per_vertex": "falloff_to_quality",
     "generate_multires_base": "smooth_base_as_layer",

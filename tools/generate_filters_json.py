@@ -33,6 +33,8 @@ NAMES = {
     "apply_coord_multires_equalizer": ("Adjust Vertices by Equalizer", ["Geometry/Smoothing"]),
     "apply_coord_multires_unsharp": ("Sharpen Vertices by Unsharp Mask", ["Geometry/Smoothing"]),
     "apply_coord_multires_denoise": ("Smooth Vertices by Noise Estimate", ["Geometry/Smoothing"]),
+    "apply_coord_multires_watermark": ("Hide Watermark", ["Geometry/Deformation"]),
+    "compute_multires_watermark": ("Read Watermark", ["Measurement/Geometric"]),
     "apply_coord_multires_transfer_edit": ("Transfer Edit of Coarse Layer",
                                            ["Geometry/Deformation", "Transfer/Between Layers"]),
     "apply_coord_multires_displace": ("Transform Selected Region", ["Geometry/Deformation"]),

@@ -15,7 +15,7 @@ import pymeshlab
 
 import rendering
 from filter_tables import FUNCTIONS
-from measuring import (BUNNY, DENOISE, ROOT, Setting, TAUBIN, arrays, document, load_plugins, normal_angles, read, run,
+from measuring import (BUNNY, DENOISE, ROOT, Setting, TAUBIN, arrays, document, load_plugins, normal_angles, normals, read, run,
                        with_noise)  # fmt: skip
 from rendering import Panel
 
@@ -158,9 +158,10 @@ def checkered(title, words, ms):
 # ---- pictures --------------------------------------------------------------------------------------------------------
 
 # Filter: how the input is made and looks, what is said of it; parameters; how the result looks, what is said of it.
+MARK = {"message": "00c0ffee00c0ffee", "key": "a key", "selected": False}
 PAIRS = {
     "compute_multires_pyramid": None,  # levels()
-    "generate_multires_level": (document, meshed, "", {"level": 4}, meshed, ", level 4"),
+    "generate_multires_level": (head, meshed, "", {"level": 5, "detail_in": "selection"}, meshed, ", detail in the selection"),
     "compute_scalar_multires_detail_per_vertex": (
         document,
         shaded,
@@ -170,6 +171,8 @@ PAIRS = {
         "1 to 6 % of the box, signed",
     ),
     "compute_multires_roughness": None,  # heights()
+    "apply_coord_multires_watermark": (document, shaded, "", MARK, shaded, "64 bits, RMS 0.08 % of the diagonal"),
+    "compute_multires_watermark": None,  # displacement()
     "compute_scalar_multires_relief_per_vertex": None,  # stone()
     "compute_custom_multires_scales": (document, shaded, "", {"bands": 12}, quality, "wavelength that stands out, of 12 bands"),
     "compute_selection_multires_features": (document, shaded, "", {"select": "vertices"}, selected, "lines of 30 degrees"),
@@ -308,6 +311,18 @@ def levels(v, f):
         panels.append(Panel(f"Level {level}", f"waves from {100 * report['wavelength'][0] / np.linalg.norm(np.ptp(v, axis=0)):.1f} % of the box",
                             *arrays(ms.current_mesh())))  # fmt: skip
     return panels
+
+
+def displacement(v, f):
+    """What carries the message of a watermark."""
+    ms = document(v, f)
+    ms.apply_filter("apply_coord_multires_watermark", **MARK)
+    marked = ms.current_mesh().vertex_matrix()
+    along = ((marked - v) * normals(v, f)[1]).sum(axis=1)
+    most = 0.002 * np.linalg.norm(np.ptp(v, axis=0))
+    return [shaded("Marked", "", ms),
+            Panel("What the mark moved", "dark to light: -0.2 to 0.2 % of the diagonal", v, f,
+                  rendering.coloured(along, -most, most, VALUES))]  # fmt: skip
 
 
 def top(v, f):
@@ -518,6 +533,7 @@ def grid_picture(name, path):
     sheet.save(path, "WEBP", quality=80, method=6)
 
 
+SPECIAL = {"compute_multires_pyramid": levels, "compute_multires_watermark": displacement}
 ALONE = {"giraffe": giraffe, "cow-leg": cow_leg, "denoise-rounded": rounded}
 
 
@@ -542,7 +558,9 @@ def main():
         if "multires_grid" in name:
             grid_picture(name, arguments.output / f"{FUNCTIONS[name].replace('_', '-')}.webp")
             continue
-        panels = top(v, f) if name == "top" else levels(v, f) if PAIRS[name] is None else pair(name, v, f)
+        panels = (
+            top(v, f) if name == "top" else SPECIAL[name](v, f) if PAIRS[name] is None else pair(name, v, f)
+        )
         camera = rendering.three_quarter_camera(v, f)
         if any(panel.edges for panel in panels):
             camera = camera.closer(-0.35, 0.25, 0.5)  # the head, that edges can be told apart

@@ -4,6 +4,7 @@
 #include "filters/layers/difference.h"
 #include "filters/layers/levels.h"
 #include "filters/shape/band_filters.h"
+#include "measure/measure.h"
 
 // Filters that build a pyramid and show what is in it.
 
@@ -20,16 +21,46 @@ struct LevelRow : GenerateLevelOptions {
     static constexpr int automatic = -1;
 };
 
-LevelRow level_defaults(const Layer* /*layer*/) { return {}; }
+/// A sphere about the middle, and a box half as large as the mesh's.
+LevelRow level_defaults(const Layer* layer) {
+    LevelRow o;
+    if (!layer) return o;
+    const Box box = bounding_box(layer->mesh.positions);
+    o.centre = box.center();
+    o.low = (box.low + o.centre) / 2, o.high = (box.high + o.centre) / 2;
+    o.radius = box.diagonal() / 8;
+    return o;
+}
+
+void bind_region_of_detail(Parameters& p, LevelRow& o) {
+    const char* const group = "Region";
+    p.add("detail_in", Choice(o.detail_in, {"nowhere", "selection", "box", "sphere"}), "All detail in",
+          "A region that keeps all its vertices; the mesh gets coarser with the distance from it until it is that of "
+          "the level. Nowhere: the level everywhere.")
+        .in(group);
+    p.add("growth", &o.growth, "Growth",
+          "How fast it gets coarser: edges may be longer by so much of their distance from the region.")
+        .at_least(0)
+        .in(group);
+    p.add("low", Point{&o.low}, "Box from", "The corner of the box with the smallest coordinates.").in(group).derived();
+    p.add("high", Point{&o.high}, "Box to", "The opposite corner.").in(group).derived();
+    p.add("centre", Point{&o.centre}, "Centre", "Of the sphere.").in(group).derived();
+    p.add("radius", &o.radius, "Radius", "Of the sphere, mesh units.").at_least(0).in(group).derived();
+}
 
 void bind_level(Parameters& p, LevelRow& o) {
     p.add("level", &o.shown, "Level",
           "0 is the mesh itself; Build Pyramid lists the vertices of the others. -1: the level that comes nearest to a "
           "quarter of the vertices. A number beyond the last level is an error that names the last.")
         .at_least(LevelRow::automatic);
+    p.add("vertices", &o.vertices, "Vertices",
+          "More than 0: a mesh of exactly so many vertices, whatever the level; with a region, those around it are "
+          "chosen by their distance.")
+        .at_least(0);
     p.add("smoothed", &o.smoothed, "Smoothed positions",
           "Place the vertices where the coarse level of the pyramid has them (presmoothed) instead of where they "
-          "are in the mesh.");
+          "are in the mesh. Of whole levels only.");
+    bind_region_of_detail(p, o);
     bind_pyramid(p, o.pyramid);
 }
 
@@ -142,8 +173,10 @@ const Plugin& table() {
                 compute_defaults, bind_compute, compute_pyramid),
             filter({"Multiresolution: Level as New Layer", "generate_multires_level",
                     std::string(
-                        "Makes a new layer with the mesh of one level of the pyramid: a subset of the vertices with "
-                        "all their attributes. The custom vertex attribute <i>source_vertex</i> holds the index of "
+                        "Makes a new layer with the mesh of one level of the pyramid, or of any number of vertices: a "
+                        "subset of the vertices with all their attributes. A region (the selection, a box or a sphere) "
+                        "may keep all its detail, with ever larger faces around it. The custom vertex attribute "
+                        "<i>source_vertex</i> holds the index of "
                         "each in the input.<br>") +
                         cite_roy,
                     MenuClass::layer, faces, none, new_layer, level_returns + pyramid_returns},

@@ -18,6 +18,7 @@ TYPES = {"boolean": bool, "integer": int, "real": float, "list": np.ndarray}
 
 # Parameters beside the defaults that bring out what is not always returned.
 MORE = {
+    "compute_multires_watermark": [{"expected": "6d756c7469726573"}],
     "generate_multires_adaptive_reconstruction": [{"target": "RMS distance", "use_color": True, "use_quality": True},
                                                   {"measure": False}],
     "apply_attributes_multires_relaxation": [{"quality": True, "texcoord": True, "wedge_texcoord": True, "custom": True}],

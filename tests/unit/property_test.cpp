@@ -320,6 +320,9 @@ static bool applies(const Placing& place, const Filter& filter, const Variant& v
     // Percent of the box, which has the world's axes; or a default that is a length.
     if (filter.python_name == "generate_multires_adaptive_reconstruction")
         return keeps_box && (place.scale == 1 || !has(variant, "unit", 0));
+    if (filter.python_name == "apply_coord_multires_watermark")  // along normals
+        return keeps_box && !turned_over;
+    if (has(variant, "detail_in", 2) || has(variant, "detail_in", 3)) return keeps_box;  // a box or sphere within it
     if (filter.python_name == "compute_scalar_multires_difference_per_vertex") return !turned_over;  // signed
     if (filter.python_name == "compute_scalar_multires_relief_per_vertex") return !turned_over;
     if (filter.python_name == "compute_custom_multires_scales") return !turned_over;

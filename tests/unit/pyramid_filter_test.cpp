@@ -1,9 +1,11 @@
 #include "filters/layers/levels.h"
 
 #include "filter_fixtures.h"
+#include "filters/region.h"
 #include "measure/measure.h"
 #include "mesh/validation.h"
 #include "scheme_fixtures.h"
+#include "schemes/table.h"
 
 #include <algorithm>
 #include <functional>
@@ -319,6 +321,170 @@ TEST(GenerateLevel, WithoutALevelHasAboutAQuarterOfTheVertices) {
                 EXPECT_EQ(generate_level(layer_of(mesh), options, session).layer->faces, result.layer->faces);
             }
     }
+}
+
+namespace {
+
+Mesh mesh_of(const DerivedMesh& derived, const Mesh& input) {
+    Mesh mesh{{}, derived.faces};
+    for (const Index v : derived.source_vertex) mesh.positions.push_back(input.positions[v]);
+    return mesh;
+}
+
+/// Nothing is worse than in the input, and what lay in a plane without overlaps still does.
+void expect_valid(const Mesh& mesh, const Mesh& input, bool height_field) {
+    const InputCounts now = count_input(mesh), before = count_input(input);
+    EXPECT_LE(now.unreferenced_vertices, before.unreferenced_vertices);
+    EXPECT_LE(now.degenerate_faces, before.degenerate_faces);
+    EXPECT_LE(now.zero_area_faces, before.zero_area_faces);
+    EXPECT_LE(now.duplicate_faces, before.duplicate_faces);
+    EXPECT_LE(now.non_manifold_edges, before.non_manifold_edges);
+    EXPECT_LE(now.non_manifold_vertices, before.non_manifold_vertices);
+    EXPECT_LE(now.inconsistent_edges, before.inconsistent_edges);
+    EXPECT_EQ(now.boundary_loops, before.boundary_loops);
+    EXPECT_EQ(now.components, before.components);
+    if (!height_field) return;
+    for (const Vec3& n : face_normals(mesh.faces, mesh.positions)) EXPECT_GT(n.z(), 0);
+}
+
+struct Input {
+    std::string name;
+    Mesh mesh;
+    bool height_field = false;
+};
+
+std::vector<Input> level_inputs() {
+    return {{"plane", shapes::plane(20), true},
+            {"terrain", shapes::terrain(20).mesh, true},
+            {"sphere", shapes::irregular_sphere(400)},
+            {"scan", shapes::scan(500)}};
+}
+
+/// Every way of choosing what goes, by sets and vertex by vertex.
+std::vector<PyramidOptions> level_pyramids() {
+    std::vector<PyramidOptions> all;
+    for (const char* scheme : {"Roy", "Szczesna"})
+        for (const Grouping grouping : {Grouping::independent_sets, Grouping::sequential}) {
+            PyramidOptions o;
+            o.scheme.row = scheme_named(scheme);
+            o.hierarchy.split = std::string(scheme) == "Roy" ? Split::quadric : Split::regression_plane;
+            o.hierarchy.grouping = grouping;
+            o.hierarchy.base_vertices = 20;
+            all.push_back(o);
+        }
+    return all;
+}
+
+}  // namespace
+
+TEST(GenerateLevel, HasExactlyAnyNumberOfVertices) {
+    for (const auto& [name, mesh, height_field] : level_inputs())
+        for (const PyramidOptions& pyramid : level_pyramids()) {
+            SCOPED_TRACE(name);
+            GenerateLevelOptions options;
+            options.pyramid = pyramid;
+            Session session;
+            const Layer layer = layer_of(mesh);
+            Report ignored;
+            const Hierarchy& h = pyramid_of(layer, pyramid, session, ignored)->hierarchy();
+            for (int n = h.size.back(); n <= h.vertices(); n += 1 + n / 40) {
+                options.vertices = n;
+                const Result result = generate_level(layer, options, session);
+                ASSERT_EQ(count(result.report, "vertices"), n);
+                expect_valid(mesh_of(*result.layer, mesh), mesh, height_field);
+            }
+            for (const int n : {h.size.back() - 1, h.vertices() + 1, -1}) {
+                options.vertices = n;
+                EXPECT_THROW(generate_level(layer, options, session), InputError);
+            }
+        }
+}
+
+TEST(GenerateLevel, KeepsARegionWholeAndGetsCoarserAroundIt) {
+    for (const auto& [name, mesh, height_field] : level_inputs()) {
+        SCOPED_TRACE(name);
+        Layer layer = layer_of(mesh);
+        const auto box = bounding_box(mesh.positions);
+        GenerateLevelOptions options;
+        options.pyramid.hierarchy.base_vertices = 20;
+        options.level = 4;
+        options.low = box.low, options.high = (box.low + box.high) / 2;
+        options.centre = mesh.positions[0], options.radius = 0.2 * box.diagonal();
+        layer.selected_face.assign(mesh.faces.size(), 0);
+        std::fill_n(layer.selected_face.begin(), mesh.faces.size() / 8, 1);
+        const auto inside = [&](Index v) {
+            if (options.detail_in == DetailIn::box)
+                return Eigen::AlignedBox3d(options.low, options.high).contains(mesh.positions[v]);
+            if (options.detail_in == DetailIn::sphere)
+                return (mesh.positions[v] - options.centre).norm() <= options.radius;
+            return region_weights(layer, {true, false})[v] > 0;
+        };
+        for (const DetailIn region : {DetailIn::selection, DetailIn::box, DetailIn::sphere})
+            for (const double growth : {0.05, 0.5}) {
+                options.detail_in = region, options.growth = growth, options.vertices = 0;
+                Session session;
+                const Result result = generate_level(layer, options, session);
+                const DerivedMesh& derived = *result.layer;
+                expect_valid(mesh_of(derived, mesh), mesh, height_field);
+                const std::set<Index> kept(derived.source_vertex.begin(), derived.source_vertex.end());
+                std::size_t wanted = 0;
+                for (Index v = 0; v < static_cast<Index>(mesh.positions.size()); ++v) {
+                    if (!inside(v)) continue;
+                    ++wanted;
+                    EXPECT_EQ(kept.count(v), 1u) << v;
+                }
+                EXPECT_GT(wanted, 10u);
+                EXPECT_LT(kept.size(), mesh.positions.size());
+
+                options.vertices = count(result.report, "vertices") + 7;  // and exactly so many
+                EXPECT_EQ(count(generate_level(layer, options, session).report, "vertices"), options.vertices);
+                options.vertices = static_cast<int>(wanted) - 1;
+                EXPECT_THROW(generate_level(layer, options, session), InputError);
+            }
+    }
+}
+
+TEST(GenerateLevel, OfALargerRegionOrSlowerGrowthHoldsThatOfASmallerOne) {
+    const Layer layer = layer_of(shapes::terrain(30).mesh);
+    GenerateLevelOptions options;
+    options.pyramid.hierarchy.base_vertices = 20;
+    options.level = 6, options.detail_in = DetailIn::sphere;
+    options.centre = layer.mesh.positions[layer.mesh.positions.size() / 2];
+    std::set<Index> before;
+    for (const auto& [radius, growth] : {std::pair{0.0, 0.8}, {0.1, 0.8}, {0.1, 0.2}, {0.3, 0.2}, {0.3, 0.0}}) {
+        options.radius = radius, options.growth = growth;
+        Session session;
+        const auto source = generate_level(layer, options, session).layer->source_vertex;
+        const std::set<Index> now(source.begin(), source.end());
+        EXPECT_GT(now.size(), before.size());
+        EXPECT_TRUE(std::includes(now.begin(), now.end(), before.begin(), before.end()));
+        before = now;
+    }
+    EXPECT_EQ(before.size(), layer.mesh.positions.size());  // without growth nothing may be coarser
+}
+
+TEST(GenerateLevel, RefusesRegionsThatAreNoneAndNamesTheParameter) {
+    const Layer layer = layer_of(shapes::plane(10));
+    const auto refusal = [&](const GenerateLevelOptions& options) {
+        Session session;
+        try {
+            generate_level(layer, options, session);
+        } catch (const InputError& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    GenerateLevelOptions options;
+    options.detail_in = DetailIn::selection;
+    EXPECT_EQ(refusal(options).find("detail_in"), 0u);
+    options.detail_in = DetailIn::box, options.low.x() = 1;
+    EXPECT_EQ(refusal(options).find("high"), 0u);
+    options.detail_in = DetailIn::sphere, options.radius = -1;
+    EXPECT_EQ(refusal(options).find("radius"), 0u);
+    options.radius = 1, options.growth = std::nan("");
+    EXPECT_EQ(refusal(options).find("growth"), 0u);
+    options.growth = 1, options.smoothed = true;
+    EXPECT_EQ(refusal(options).find("smoothed"), 0u);
 }
 
 // ---- the cache

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "measure/distance.h"
+#include "measure/triangles.h"
 #include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
 #include "solvers/conjugate_gradients.h"
@@ -21,25 +22,6 @@ struct Foot {
     double weight = 0;
     double gap = 0;  ///< from the foot to the vertex, along the normal
 };
-
-Vec3 barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const Vec3 ab = b - a, ac = c - a, n = ab.cross(ac), ap = p - a;
-    const double nn = n.squaredNorm();
-    if (!(nn > 0)) return Vec3::Constant(1 / 3.0);
-    const double v = std::clamp(ap.cross(ac).dot(n) / nn, 0.0, 1.0);
-    const double w = std::clamp(ab.cross(ap).dot(n) / nn, 0.0, 1.0 - v);
-    return {1 - v - w, v, w};
-}
-
-/// Third of the area of the faces around each vertex.
-std::vector<double> vertex_areas(const Mesh& mesh) {
-    std::vector<double> area(mesh.positions.size(), 0);
-    for (const Face& f : mesh.faces) {
-        const double share = area_vector(f, mesh.positions).norm() / 6;
-        for (const Index v : f) area[v] += share;
-    }
-    return area;
-}
 
 /// The normal at a foot. On an edge or a corner, where several faces are equally close and rounding chooses one, it is
 /// the direction of the distance, or (without a distance) what the corners' normals say: the same for all of them.
@@ -194,7 +176,7 @@ Positions fitted(const Mesh& input, const Faces& faces, const Positions& positio
     std::vector<std::uint8_t> stay = fixed;
     const Rings rings = vertex_rings({positions, faces});
     for (std::size_t v = 0; v < stay.size(); ++v) stay[v] |= rings.kind[v] != RingKind::closed;
-    const std::vector<double> area = vertex_areas(input);
+    const std::vector<double> area = area_shares(input);
     Positions now = positions;
     constexpr int rounds = 2, steps = 12;
     for (int round = 0; round < rounds; ++round) {

@@ -1,5 +1,7 @@
 #include "filters/layers/levels.h"
 
+#include "filters/layers/level_region.h"
+#include "hierarchy/refinement.h"
 #include "measure/measure.h"
 #include "mesh/validation.h"
 
@@ -60,11 +62,41 @@ Cut automatic_level(const Hierarchy& h, bool whole_levels) {
     return best;
 }
 
-/// Of a mesh over places.
-double wavelength_of(const Faces& faces, const Hierarchy& h, const Positions& input) {
-    Positions at(input.size());
-    for (Index p = 0; p < h.vertices(); ++p) at[p] = input[h.order[p]];
-    return 2 * mean_edge_length(faces, at);
+/// So many vertices: the level is the finest that is not larger.
+Cut given_count(const Hierarchy& h, int count) {
+    require(count >= h.size.back() && count <= h.vertices(), "vertices must be between " +
+                                                                 std::to_string(h.size.back()) + " and " +
+                                                                 std::to_string(h.vertices()) + " for this mesh, or 0");
+    std::size_t level = 0;
+    while (h.size[level] > count) ++level;
+    return {level, count};
+}
+
+Cut cut_of(const Hierarchy& h, const GenerateLevelOptions& options) {
+    if (options.vertices > 0) return given_count(h, options.vertices);
+    return options.level ? given_level(h, *options.level) : automatic_level(h, options.smoothed);
+}
+
+/// The mesh of the places kept, in their order.
+DerivedMesh derived_mesh(const Hierarchy& h, const Faces& faces, const std::vector<std::uint8_t>& kept) {
+    LevelMesh mesh = mesh_of_set(h, faces, kept);
+    DerivedMesh derived;
+    Array<Index> number(kept.size(), -1);
+    for (std::size_t p = 0; p < kept.size(); ++p) {
+        if (!kept[p]) continue;
+        number[p] = static_cast<Index>(derived.source_vertex.size());
+        derived.source_vertex.push_back(h.order[p]);
+    }
+    for (Face& f : mesh.faces) f = {number[f[0]], number[f[1]], number[f[2]]};
+    derived.faces = std::move(mesh.faces);
+    derived.source_face = std::move(mesh.source_face);
+    return derived;
+}
+
+double wavelength_of(const DerivedMesh& mesh, const Positions& input) {
+    Positions at;
+    for (const Index v : mesh.source_vertex) at.push_back(input[v]);
+    return 2 * mean_edge_length(mesh.faces, at);
 }
 
 }  // namespace
@@ -97,25 +129,33 @@ Result compute_pyramid(const Layer& layer, const ComputePyramidOptions& options,
 }
 
 Result generate_level(const Layer& layer, const GenerateLevelOptions& options, Session& session) {
+    const bool region = options.detail_in != DetailIn::nowhere;
+    require(options.vertices >= 0, "vertices must be 0 or more");
+    require(!options.smoothed || (!region && options.vertices == 0),
+            "smoothed: positions are those of whole levels, without a number of vertices or a region");
+    const std::vector<double> distance = region ? region_distance(layer, options) : std::vector<double>();
     Result result;
     const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
     const Hierarchy& h = pyramid->hierarchy();
-    const Cut cut = options.level ? given_level(h, *options.level) : automatic_level(h, options.smoothed);
-    const bool whole = cut.count == h.size[cut.level];
-    LevelMesh mesh = prefix_mesh(h, layer.mesh.faces, cut.count);
-    const double wavelength =
-        whole ? pyramid->levels()[cut.level].wavelength : wavelength_of(mesh.faces, h, layer.mesh.positions);
-    DerivedMesh derived;
-    derived.name = (whole ? "level " : "below level ") + std::to_string(cut.level);
-    derived.source_vertex.assign(h.order.begin(), h.order.begin() + cut.count);
-    derived.faces = std::move(mesh.faces);
-    derived.source_face = std::move(mesh.source_face);
+    require(h.lattice.empty() || (!region && options.vertices == 0),
+            "scheme: levels of grids are octaves; a number of vertices or a region needs another scheme");
+    const Cut cut = cut_of(h, options);
+    const bool whole = !region && cut.count == h.size[cut.level];
+    std::vector<std::uint8_t> kept(h.vertices(), 0);
+    if (region)
+        kept = level_of_region(h, layer.mesh.positions, distance, {cut.count, options.vertices > 0, options.growth});
+    else
+        std::fill_n(kept.begin(), cut.count, 1);
+    DerivedMesh derived = derived_mesh(h, layer.mesh.faces, kept);
+    derived.name = region ? "level with region" : (whole ? "level " : "below level ") + std::to_string(cut.level);
+    result.report.add("level", static_cast<int>(cut.level));
+    result.report.add("vertices", static_cast<int>(derived.source_vertex.size()));
+    result.report.add("faces", static_cast<int>(derived.faces.size()));
+    result.report.add("wavelength",
+                      whole ? pyramid->levels()[cut.level].wavelength : wavelength_of(derived, layer.mesh.positions),
+                      "mesh units");
     if (options.smoothed)
         derived.positions = positions_of(pyramid->scheme().synthesise(pyramid->coefficients(), down_to(cut.level)));
-    result.report.add("level", static_cast<int>(cut.level));
-    result.report.add("vertices", static_cast<int>(cut.count));
-    result.report.add("faces", static_cast<int>(derived.faces.size()));
-    result.report.add("wavelength", wavelength, "mesh units");
     result.layer = std::move(derived);
     return result;
 }

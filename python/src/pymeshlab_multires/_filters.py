@@ -13,14 +13,15 @@ __all__ = [
     "FilterGridAttributesReport", "GenerateTexcoordReport", "GridBandReport", "GridCompressReport", "GridEditReport",
     "GridLevelReport", "GridReport", "Grouping", "KeepBy", "LIMITS", "LevelAsLayerReport", "LowPassReport", "Mode",
     "MoveRegionReport", "Movement", "MultibandEditReport", "Operator", "Oracle", "Order", "Pyramid", "PyramidUse",
-    "RelativeTo", "RelaxAttributesReport", "ReliefReport", "Result", "RoughnessReport", "Scheme",
+    "ReadWatermarkReport", "RelativeTo", "RelaxAttributesReport", "ReliefReport", "Result", "RoughnessReport", "Scheme",
     "SelectFeaturesReport", "SmoothBaseAsLayerReport", "Split", "StopBandReport", "Storage", "TransferEditReport",
-    "UnsharpReport", "Update", "adaptive_reconstruction", "build_pyramid", "compress_grid_attributes", "denoise",
-    "denoise_attributes", "detail_from_layer", "detail_to_quality", "details_by_scale", "difference_to_layer",
-    "enhance", "equalizer", "falloff_to_quality", "filter_attributes", "filter_custom_attributes",
-    "filter_grid_attributes", "generate_texcoord", "grid", "grid_band", "grid_compress", "grid_edit", "grid_level",
-    "level_as_layer", "low_pass", "move_region", "multiband_edit", "relax_attributes", "relief", "roughness",
-    "select_features", "smooth_base_as_layer", "stop_band", "transfer_edit", "unsharp",
+    "UnsharpReport", "Update", "WatermarkReport", "adaptive_reconstruction", "build_pyramid",
+    "compress_grid_attributes", "denoise", "denoise_attributes", "detail_from_layer", "detail_to_quality",
+    "details_by_scale", "difference_to_layer", "enhance", "equalizer", "falloff_to_quality", "filter_attributes",
+    "filter_custom_attributes", "filter_grid_attributes", "generate_texcoord", "grid", "grid_band", "grid_compress",
+    "grid_edit", "grid_level", "level_as_layer", "low_pass", "move_region", "multiband_edit", "read_watermark",
+    "relax_attributes", "relief", "roughness", "select_features", "smooth_base_as_layer", "stop_band", "transfer_edit",
+    "unsharp", "watermark",
 ]
 
 Scheme: TypeAlias = Literal["Roy", "Guskov", "Lazy", "Szczesna", "Dreger"]
@@ -511,6 +512,40 @@ class TransferEditReport(Movement, Result):
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class WatermarkReport(Movement, Result):
+    """What watermark() returns."""
+
+    carriers: int
+    """Places that carry the mark: 280, fewer if there are fewer than 560 vertices, and then it may not be readable."""
+    carrier_spacing: float
+    """Distance of the places that carry the mark; its waves are about twice as long, and longer (mesh units)."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
+class ReadWatermarkReport:
+    """What read_watermark() returns."""
+
+    bits: Array
+    """The 64 bits of the message, the most significant first."""
+    confidence: Array
+    """For each bit the probability that it is right, 0.5 to 1."""
+    sure_bits: int
+    """How many of them are right with a probability of more than 0.99."""
+    probability_unmarked: float
+    """Probability that a mesh without a mark of this key would look as much like one, as estimated from wrong keys."""
+    bit_errors: int | None = None
+    """With an expected message: the bits that differ."""
+    carriers_seen: float
+    """Share of the places that carry the mark that the mesh still has, 0 to 1."""
+    scale: float
+    """Factor that makes the mesh as large as the original."""
+    smoothing: float
+    """How many steps of smoothing made the original most like the mesh, 0 if none did."""
+    rms_offset: float
+    """Root mean square distance of the mesh from the original, once it was laid onto it (mesh units)."""
+
+
+@dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
 class MoveRegionReport(Movement, Result):
     """What move_region() returns."""
 
@@ -824,11 +859,16 @@ def build_pyramid(
 
 @also_flat(Pyramid)
 def level_as_layer(
-    ms: MeshSet, *, level: int = -1, smoothed: bool = False, pyramid: Pyramid | None = None,
+    ms: MeshSet, *, level: int = -1, vertices: int = 0, smoothed: bool = False,
+    detail_in: Literal["nowhere", "selection", "box", "sphere"] = "nowhere", growth: float = 0.2,
+    low: Vector | None = None, high: Vector | None = None, centre: Vector | None = None, radius: float | None = None,
+    pyramid: Pyramid | None = None,
 ) -> LevelAsLayerReport:
-    """Makes a new layer with the mesh of one level of the pyramid: a subset of the vertices with all their attributes.
+    """Makes a new layer with the mesh of one level of the pyramid, or of any number of vertices: a subset of the
+    vertices with all their attributes.
 
-    The custom vertex attribute source_vertex holds the index of each in the input.
+    A region (the selection, a box or a sphere) may keep all its detail, with ever larger faces around it. The custom
+    vertex attribute source_vertex holds the index of each in the input.
 
     The filter generate_multires_level, on the current mesh; the mesh is unchanged if it fails.
 
@@ -837,8 +877,18 @@ def level_as_layer(
         level: 0 is the mesh itself; Build Pyramid lists the vertices of the others. -1: the level that comes nearest to
             a quarter of the vertices. A number beyond the last level is an error that names the last. A whole number,
             at least -1.
+        vertices: More than 0: a mesh of exactly so many vertices, whatever the level; with a region, those around it
+            are chosen by their distance. A whole number, at least 0.
         smoothed: Place the vertices where the coarse level of the pyramid has them (presmoothed) instead of where they
-            are in the mesh.
+            are in the mesh. Of whole levels only.
+        detail_in: A region that keeps all its vertices; the mesh gets coarser with the distance from it until it is
+            that of the level. Nowhere: the level everywhere.
+        growth: How fast it gets coarser: edges may be longer by so much of their distance from the region. A number, at
+            least 0.
+        low: The corner of the box with the smallest coordinates. None: derived from the mesh.
+        high: The opposite corner. None: derived from the mesh.
+        centre: Of the sphere. None: derived from the mesh.
+        radius: Of the sphere, mesh units. A number, at least 0. None: derived from the mesh.
         pyramid: how the pyramid is built. None: the filter's defaults.
 
     Raises:
@@ -1379,6 +1429,69 @@ def transfer_edit(
         Vorsatz, Kobbelt, "Robust Multi-Band Detail Encoding for Triangular Meshes of Arbitrary Connectivity", VMV 1999.
     """
     return apply(TransferEditReport, "apply_coord_multires_transfer_edit", **locals())
+
+
+def watermark(
+    ms: MeshSet, *, message: str = "6d756c7469726573", key: str = "", strength: float = 0.08,
+    selected: bool | None = None, quality_mask: bool = False, relative_to: RelativeTo = "current shape",
+) -> WatermarkReport:
+    """Hides a message of 64 bits in the coefficients of a band of middle wavelengths, too small and too smooth to be
+    seen.
+
+    Read Watermark finds it again, beside the original, after motion, scaling, reordering, remeshing, simplification,
+    noise, smoothing, rounding or cropping.
+
+    The filter apply_coord_multires_watermark, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        message: 64 bits as 16 hexadecimal digits.
+        key: Any text. Who does not know it can neither read the message nor tell that there is one.
+        strength: Root mean square displacement, percent of the diagonal of the bounding box. More withstands more, and
+            shows. A number, 0.001 to 1.
+        selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
+            derived from the mesh.
+        quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
+            clamped.
+        relative_to: Current shape: the filter changes the mesh as it is now. Original: it starts again from the shape
+            the mesh had before any Multiresolution filter moved it, so that changes do not add up, and values that
+            change nothing (gains of 1) bring exactly that shape back. Outside the selection the mesh stays as it is.
+            The original is kept with the layer until something else changes the mesh; files do not hold it.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Cox, Kilian, Leighton, Shamoon, "Secure Spread Spectrum Watermarking for Multimedia", IEEE TIP 1997.
+        Praun, Hoppe, Finkelstein, "Robust Mesh Watermarking", SIGGRAPH 1999.
+    """
+    return apply(WatermarkReport, "apply_coord_multires_watermark", **locals())
+
+
+def read_watermark(
+    ms: MeshSet, *, original: int | None = None, key: str = "", expected: str = "",
+) -> ReadWatermarkReport:
+    """Reads the message that Watermark hid, beside the original in another layer; the mesh may have been moved, turned
+    and scaled.
+
+    Returns how sure each bit is, and how probable it is that there is no mark at all.
+
+    The filter compute_multires_watermark, on the current mesh; the mesh is unchanged if it fails.
+
+    Args:
+        ms: the document.
+        original: The layer with the mesh before it was marked. None: the first other layer.
+        key: Any text. Who does not know it can neither read the message nor tell that there is one.
+        expected: 16 hexadecimal digits to compare with, which is then reported as bit_errors; empty: none.
+
+    Raises:
+        pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
+
+    See:
+        Cox, Kilian, Leighton, Shamoon, "Secure Spread Spectrum Watermarking for Multimedia", IEEE TIP 1997.
+        Praun, Hoppe, Finkelstein, "Robust Mesh Watermarking", SIGGRAPH 1999.
+    """
+    return apply(ReadWatermarkReport, "compute_multires_watermark", **locals())
 
 
 @also_flat(Pyramid)
@@ -2197,6 +2310,9 @@ LIMITS: dict[str, dict[str, tuple[float, float]]] = {
     "transfer_edit": {
         "gain": (0, 4), "bands": (1, 8),
     },
+    "watermark": {
+        "strength": (0.001, 1),
+    },
     "move_region": {
         "angle": (-180, 180), "scale": (0.01, 100),
     },
@@ -2263,6 +2379,8 @@ FILTERS: dict[str, tuple[str, str]] = {
     "unsharp": ("apply_coord_multires_unsharp", "Multiresolution: Unsharp (Single Level)"),
     "denoise": ("apply_coord_multires_denoise", "Multiresolution: Denoise"),
     "transfer_edit": ("apply_coord_multires_transfer_edit", "Multiresolution: Follow Edited Layer"),
+    "watermark": ("apply_coord_multires_watermark", "Multiresolution: Watermark"),
+    "read_watermark": ("compute_multires_watermark", "Multiresolution: Read Watermark"),
     "move_region": ("apply_coord_multires_displace", "Multiresolution: Move Region"),
     "falloff_to_quality": ("compute_scalar_multires_falloff_per_vertex", "Multiresolution: Falloff to Quality"),
     "smooth_base_as_layer": ("generate_multires_base", "Multiresolution: Smooth Base as Layer"),
