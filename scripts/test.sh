@@ -4,7 +4,7 @@
 # not built or linted again.
 set -uo pipefail
 cd "$(dirname "$0")/.."
-presets=(pymeshlab-2025.07 debian-2020.09 headers-2022.02 sanitize threads fuzz)
+presets=(pymeshlab-2025.07 debian-2020.09 headers-2022.02 sanitize threads)
 
 stop() {
     echo "$1" >&2

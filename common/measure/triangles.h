@@ -20,10 +20,10 @@ inline Vec3 barycentric(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3&
 
 /// A third of the area of the faces around each vertex, however thin they are.
 /// @returns  #V, square mesh units
-inline std::vector<double> area_shares(const Mesh& mesh) {
-    std::vector<double> area(mesh.positions.size(), 0);
-    for (const Face& f : mesh.faces) {
-        const double share = area_vector(f, mesh.positions).norm() / 6;
+inline std::vector<double> area_shares(const Faces& faces, const Positions& positions) {
+    std::vector<double> area(positions.size(), 0);
+    for (const Face& f : faces) {
+        const double share = area_vector(f, positions).norm() / 6;
         for (const Index v : f) area[v] += share;
     }
     return area;

@@ -77,7 +77,7 @@ private:
 
     std::vector<Index> order_;  ///< of the batch
     std::size_t at_ = 0;
-    Index batch_ = 0, visited_ = 0;
+    Index batch_ = 0;
     std::vector<Index> batch_of_face_;  ///< #F: the last batch in which the face was around a new vertex
     double density_ = 0.3, mean_area_ = 0;
     StarShape shape_;

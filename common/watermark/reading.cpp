@@ -95,7 +95,8 @@ public:
     /// @param mesh  placed on the rung
     Sampler(const Mesh& mesh, const Mesh& original, const Ladder& ladder, std::size_t rung)
         : mesh_(mesh), original_(original), at_(ladder[rung]), tree_(original.faces, at_),
-          normal_(vertex_normals(original.faces, at_)), moved_(at_.size()), area_(area_shares(mesh)) {
+          normal_(vertex_normals(original.faces, at_)), moved_(at_.size()),
+          area_(area_shares(mesh.faces, mesh.positions)) {
         const auto others = next_to(rung);
         for (std::size_t i = 0; i < at_.size(); ++i)
             for (int m = 0; m < smoothings; ++m) moved_[i][m] = normal_[i].dot(ladder[others[m]][i] - at_[i]);

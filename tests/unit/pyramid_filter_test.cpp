@@ -414,9 +414,9 @@ TEST(GenerateLevel, KeepsARegionWholeAndGetsCoarserAroundIt) {
         std::fill_n(layer.selected_face.begin(), mesh.faces.size() / 8, 1);
         const auto inside = [&](Index v) {
             if (options.detail_in == DetailIn::box)
-                return Eigen::AlignedBox3d(options.low, options.high).contains(mesh.positions[v]);
+                return Eigen::AlignedBox3d(options.low, options.high).contains(layer.mesh.positions[v]);
             if (options.detail_in == DetailIn::sphere)
-                return (mesh.positions[v] - options.centre).norm() <= options.radius;
+                return (layer.mesh.positions[v] - options.centre).norm() <= options.radius;
             return region_weights(layer, {true, false})[v] > 0;
         };
         for (const DetailIn region : {DetailIn::selection, DetailIn::box, DetailIn::sphere})

@@ -87,7 +87,7 @@ protected:
 
 using Meshes =
     testing::Types<PlainTypes<float>::Mesh, PlainTypes<double>::Mesh, OcfTypes<float>::Mesh, OcfTypes<double>::Mesh>;
-TYPED_TEST_SUITE(VcgConversion, Meshes);
+TYPED_TEST_SUITE(VcgConversion, Meshes, );
 
 AttributeRequest everything() { return {true, true, true, {}}; }
 

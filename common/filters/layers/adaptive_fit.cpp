@@ -176,7 +176,7 @@ Positions fitted(const Mesh& input, const Faces& faces, const Positions& positio
     std::vector<std::uint8_t> stay = fixed;
     const Rings rings = vertex_rings({positions, faces});
     for (std::size_t v = 0; v < stay.size(); ++v) stay[v] |= rings.kind[v] != RingKind::closed;
-    const std::vector<double> area = area_shares(input);
+    const std::vector<double> area = area_shares(input.faces, input.positions);
     Positions now = positions;
     constexpr int rounds = 2, steps = 12;
     for (int round = 0; round < rounds; ++round) {

@@ -3,6 +3,7 @@
 #include "base/blocks.h"
 #include "filters/placement.h"
 #include "measure/signed_distance.h"
+#include "measure/triangles.h"
 #include "mesh/validation.h"
 #include "pyramid/band.h"
 #include "pyramid/with_gains.h"
@@ -57,20 +58,10 @@ std::vector<double> low_passed(const std::vector<double>& values, const Layer& l
     return {smooth.values.begin(), smooth.values.end()};
 }
 
-/// A third of the area of the faces around each vertex.
-std::vector<double> areas(const Faces& faces, const Positions& positions) {
-    std::vector<double> area(positions.size(), 0);
-    for (const Face& f : faces) {
-        const Vec3 &a = positions[f[0]], &b = positions[f[1]], &c = positions[f[2]];
-        for (const Index v : f) area[v] += (b - a).cross(c - a).norm() / 6;
-    }
-    return area;
-}
-
 /// Vertices without a face count for nothing.
 void report_difference(const Mesh& mesh, const Positions& world, const std::vector<double>& value, double beyond,
                        Report& report) {
-    const std::vector<double> area = areas(mesh.faces, world);
+    const std::vector<double> area = area_shares(mesh.faces, world);
     std::vector<std::uint8_t> used(value.size(), 0);
     for (const Face& f : mesh.faces)
         for (const Index v : f) used[v] = 1;

@@ -44,7 +44,7 @@ Result watermark(const Layer& layer, const WatermarkOptions& options, Session& s
     const Carriers carriers(mesh);
     session.progress.report(0.6, "Marking");
     const Array<Vec3> field = carriers.displacement(value, mesh.positions);
-    const std::vector<double> area = area_shares(mesh);
+    const std::vector<double> area = area_shares(mesh.faces, mesh.positions);
     const double rms = rms_of(area, field);
     require(rms > 0, "The mesh has no vertex with a normal to move along");
     const double scale = options.strength / 100 * bounding_box(mesh.positions).diagonal() / rms;
