@@ -55,34 +55,33 @@ CandidateMaker::CandidateMaker(const Faces& faces, const Positions& positions, c
     parallel_for(near.rows(), [&](Index v) { probe_[v] = deviation[v] * gaussian(v, 7); });
 }
 
-CandidateMaker::LowPasses CandidateMaker::low_passes(Smoother smoother, bool with_probe) const {
-    if (smoother == Smoother::spatial) return spatial(with_probe);
-    return along_normals(smoother == Smoother::cotangent ? weight_ : std::vector<double>());
+CandidateMaker::LowPasses CandidateMaker::low_passes(Smoother smoother, std::size_t levels) const {
+    if (smoother == Smoother::spatial) return spatial(levels);
+    return along_normals(smoother == Smoother::cotangent ? weight_ : std::vector<double>(), levels);
 }
 
-CandidateMaker::LowPasses CandidateMaker::spatial(bool with_probe) const {
-    LowPasses low(low_pass_steps.size(), std::vector<double>(3 * probe_.size()));
-    for (int channel = 0; channel < 3; ++channel) {
-        if (channel == 1 && !with_probe) continue;
-        Positions start = positions_;
-        if (channel > 0)
-            parallel_for(near_.rows(), [&](Index v) {
-                start[v] = (channel == 1 ? probe_[v] : deviation_[v] * gaussian(v, 8)) * normal_[v];
-            });
-        Positions p = start;
-        int done = 0;
-        for (std::size_t level = 0; level < low.size(); ++level) {
-            p = taubin(near_, std::move(p), low_pass_steps[level] - done, -0.5);
-            done = low_pass_steps[level];
-            parallel_for(near_.rows(), [&](Index v) {
-                low[level][3 * static_cast<std::size_t>(v) + channel] = normal_[v].dot(p[v] - start[v]);
-            });
-        }
+CandidateMaker::LowPasses CandidateMaker::spatial(std::size_t levels) const {
+    Array<Eigen::Matrix3d> start(probe_.size());
+    parallel_for(near_.rows(), [&](Index v) {
+        start[v].col(0) = positions_[v];
+        start[v].col(1) = probe_[v] * normal_[v];
+        start[v].col(2) = deviation_[v] * gaussian(v, 8) * normal_[v];
+    });
+    Array<Eigen::Matrix3d> p = start;
+    LowPasses low(levels, std::vector<double>(3 * probe_.size()));
+    int done = 0;
+    for (std::size_t level = 0; level < levels; ++level) {
+        p = taubin(near_, std::move(p), low_pass_steps[level] - done, -0.5);
+        done = low_pass_steps[level];
+        parallel_for(near_.rows(), [&](Index v) {
+            for (int c = 0; c < 3; ++c)
+                low[level][3 * static_cast<std::size_t>(v) + c] = normal_[v].dot(p[v].col(c) - start[v].col(c));
+        });
     }
     return low;
 }
 
-CandidateMaker::LowPasses CandidateMaker::along_normals(const std::vector<double>& weight) const {
+CandidateMaker::LowPasses CandidateMaker::along_normals(const std::vector<double>& weight, std::size_t levels) const {
     const AlongNormals surface(near_, positions_, normal_, weight);
     LowPasses low;
     std::vector<double> start(3 * probe_.size(), 0);
@@ -92,9 +91,9 @@ CandidateMaker::LowPasses CandidateMaker::along_normals(const std::vector<double
     }
     std::vector<double> h = start;
     int done = 0;
-    for (const int steps : low_pass_steps) {
-        surface.smooth(h, steps - done);
-        done = steps;
+    for (std::size_t level = 0; level < levels; ++level) {
+        surface.smooth(h, low_pass_steps[level] - done);
+        done = low_pass_steps[level];
         low.emplace_back(h.size());
         for (std::size_t i = 0; i < h.size(); ++i) low.back()[i] = h[i] - start[i];
     }
@@ -183,7 +182,7 @@ CandidateMaker::Responses CandidateMaker::responses(const std::function<void(dou
     std::vector<Response>& all = out.all;
     std::vector<Response> wieners;
     for (const Smoother smoother : smoothers) {
-        const LowPasses low = low_passes(smoother, true);
+        const LowPasses low = low_passes(smoother, low_pass_steps.size());
         tick(0.05 + 0.1 * static_cast<double>(smoother));
         const std::vector<Band> split = bands(low);
         for (const double severity : wiener_severity) wieners.push_back(wiener(low, split, severity));
@@ -218,13 +217,16 @@ void CandidateMaker::add_guided(Responses& responses, const std::function<void(d
 
 void CandidateMaker::add_heights(const Eigen::VectorXd& weights, Smoother smoother, std::vector<double>& height) const {
     const std::vector<Candidate> all = all_candidates();
-    bool low_pass = false, shrunk = false;
+    std::size_t levels = 0;
+    bool shrunk = false;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        low_pass |= weights[k] > 0 && all[k].is(Family::low_pass, smoother);
+        if (weights[k] > 0 && all[k].is(Family::low_pass, smoother))
+            levels = std::max<std::size_t>(levels, all[k].index + 1);
         shrunk |= weights[k] > 0 && all[k].is(Family::wiener, smoother);
     }
-    if (!low_pass && !shrunk) return;
-    const LowPasses low = low_passes(smoother, false);
+    if (shrunk) levels = low_pass_steps.size();
+    if (levels == 0) return;
+    const LowPasses low = low_passes(smoother, levels);
     const std::vector<Band> split = shrunk ? bands(low) : std::vector<Band>();
     for (std::size_t k = 0; k < all.size(); ++k) {
         if (!(weights[k] > 0)) continue;

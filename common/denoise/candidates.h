@@ -64,10 +64,10 @@ public:
 
 private:
     using LowPasses = std::vector<std::vector<double>>;  ///< #V by 3 each: moves of the surface and of two noises
-    /// @param with_probe  false: the response to the probe may be left 0
-    LowPasses low_passes(Smoother smoother, bool with_probe) const;
-    LowPasses along_normals(const std::vector<double>& weight) const;
-    LowPasses spatial(bool with_probe) const;
+    /// @param levels  the first so many of low_pass_steps
+    LowPasses low_passes(Smoother smoother, std::size_t levels) const;
+    LowPasses along_normals(const std::vector<double>& weight, std::size_t levels) const;
+    LowPasses spatial(std::size_t levels) const;
     /// Adds the linear candidates and those made of them.
     void add_heights(const Eigen::VectorXd& weights, Smoother smoother, std::vector<double>& height) const;
     /// What lies between two low passes, of all three channels.

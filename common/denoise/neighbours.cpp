@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace multires {
 namespace {
@@ -101,18 +102,31 @@ std::vector<double> cotangent_weights(const Faces& faces, const Incidence& at, c
     return weight;
 }
 
-Positions taubin(const Neighbours& near, Positions p, int steps, double outwards) {
-    Positions next(p.size());
+namespace {
+
+template <class Value>
+Array<Value> taubin_steps(const Neighbours& near, Array<Value> p, int steps, double outwards) {
+    Array<Value> next(p.size());
     for (int step = 0; step < 2 * steps; ++step) {
         const double factor = step % 2 == 0 ? 0.5 : outwards;
         parallel_for(near.rows(), [&](Index v) {
-            Vec3 sum = Vec3::Zero();
+            Value sum = Value::Zero();
             for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) sum += p[near.vertex[k]];
-            next[v] = near.size(v) > 0 ? Vec3(p[v] + factor * (sum / near.size(v) - p[v])) : p[v];
+            next[v] = near.size(v) > 0 ? Value(p[v] + factor * (sum / near.size(v) - p[v])) : p[v];
         });
         p.swap(next);
     }
     return p;
+}
+
+}  // namespace
+
+Positions taubin(const Neighbours& near, Positions positions, int steps, double outwards) {
+    return taubin_steps(near, std::move(positions), steps, outwards);
+}
+
+Array<Eigen::Matrix3d> taubin(const Neighbours& near, Array<Eigen::Matrix3d> fields, int steps, double outwards) {
+    return taubin_steps(near, std::move(fields), steps, outwards);
 }
 
 void average(const Neighbours& near, std::vector<double>& values, int width, int steps) {
