@@ -80,6 +80,9 @@ def batches(todo):
         words = shlex.split(command)
         output = words.index("-o")
         flags = [w for w in words[1:output] + words[output + 2 :] if w not in ("-c", str(path))]
+        if "-Winvalid-pch" in flags:  # GCC's precompiled header, which clang takes for a damaged one of its own
+            first = flags.index("-Winvalid-pch")
+            del flags[first : first + 3]
         found[path.parent, tuple(flags)].append((path, k))
     return [(flags, jobs) for (_, flags), jobs in found.items()]
 

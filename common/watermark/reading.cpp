@@ -154,8 +154,8 @@ void remove_nuisances(std::vector<Sample>& samples) {
 
 /// Offsets beyond three deviations become that; of a normal distribution the deviation is 1.48 medians.
 void cut_outliers(std::vector<Sample>& samples) {
-    std::vector<double> size;
-    for (const Sample& s : samples) size.push_back(std::abs(s.offset));
+    std::vector<double> size(samples.size());
+    std::transform(samples.begin(), samples.end(), size.begin(), [](const Sample& s) { return std::abs(s.offset); });
     const double most = 3 * 1.4826 * upper_median(size);
     for (Sample& s : samples) s.offset = std::clamp(s.offset, -most, most);
 }

@@ -14,8 +14,8 @@ namespace {
 std::vector<double> coefficients(const WatermarkOptions& options) {
     const CodeWord word = encoded(message_of(options.message, "message"));
     const Assignment key = assignment(options.key);
-    std::vector<double> value;
-    for (Index c = 0; c < Carriers::most; ++c) value.push_back(key.sign[c] * word[key.bit[c]]);
+    std::vector<double> value(Carriers::most);
+    for (Index c = 0; c < Carriers::most; ++c) value[c] = key.sign[c] * word[key.bit[c]];
     return value;
 }
 
