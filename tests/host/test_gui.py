@@ -15,7 +15,8 @@ GRID = [name for name in FILTER_IDS if name.startswith("apply_coord") and wants_
 MOVING = [name for name in FILTER_IDS if name.startswith("apply_coord") and name not in [*NEED_MORE, *GRID]]
 # What MeshLab puts back when a preview ends: positions, colours and quality; not layers, texture coordinates, custom data.
 QUALITY = [name for name in FILTER_IDS if name.startswith("compute_scalar")]
-PREVIEWED = [*MOVING, *NEED_MORE, *GRID, *QUALITY, "apply_attributes_multires_band"]
+PREVIEWED = {*MOVING, *NEED_MORE, *GRID, *QUALITY, "apply_attributes_multires_band"}
+PREVIEWED -= {"apply_coord_multires_grid_edit"}  # may change custom attributes, too
 
 # What brings the mesh back. From 2022.02 on, closing the dialog leaves what is previewed.
 CANCEL = [("press", "Preview"), ("press", "Close")] if LATER_GUI else [("press", "Close")]
@@ -29,6 +30,7 @@ CHANGES = {
     "apply_coord_multires_unsharp": ("slide", "Strength", "35"),
     "apply_coord_multires_denoise": ("slide", "Strength", "40"),
     "apply_coord_multires_bands": ("slide", "Gain 3", "90"),
+    "apply_coord_multires_watermark": ("set", "Strength", "1"),
 }
 
 

@@ -133,9 +133,9 @@ Result generate_level(const Layer& layer, const GenerateLevelOptions& options, S
     require(options.vertices >= 0, "vertices must be 0 or more");
     require(!options.smoothed || (!region && options.vertices == 0),
             "smoothed: positions are those of whole levels, without a number of vertices or a region");
-    const std::vector<double> distance = region ? region_distance(layer, options) : std::vector<double>();
     Result result;
-    const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
+    const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);  // checks the mesh, too
+    const std::vector<double> distance = region ? region_distance(layer, options) : std::vector<double>();
     const Hierarchy& h = pyramid->hierarchy();
     require(h.lattice.empty() || (!region && options.vertices == 0),
             "scheme: levels of grids are octaves; a number of vertices or a region needs another scheme");
