@@ -184,7 +184,7 @@ def test_a_run_that_was_killed_is_resumed_and_leaves_no_half_file(command, spher
 
 @pytest.mark.parametrize("retries", [0, 1])
 def test_a_process_that_dies_costs_its_mesh_alone(run, sphere, tmp_path, retries):
-    inputs = several(tmp_path / "in", sphere, 2)
+    inputs = several(tmp_path / "in", sphere, 8)  # enough to be at work when it is killed
     before = set(children())
 
     def kill_one():
@@ -198,7 +198,7 @@ def test_a_process_that_dies_costs_its_mesh_alone(run, sphere, tmp_path, retries
     killer.join()
     failed = [record["error"] for record in records if record["status"] != "ok"]
     assert failed == [] if retries else len(failed) == 1 and "signal 9" in failed[0]
-    assert len(list((tmp_path / "out").glob("*.ply"))) == 1 + retries and not leftovers(tmp_path / "out")
+    assert len(list((tmp_path / "out").glob("*.ply"))) == 7 + retries and not leftovers(tmp_path / "out")
 
 
 def test_time_and_memory_are_limited(run, meshes, sphere, tmp_path):

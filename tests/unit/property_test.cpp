@@ -87,7 +87,12 @@ protected:
 TEST_P(Properties, SameBitsForAnyNumberOfThreadsAndEveryTime) {
     const Layer layer = with_data(suited(filter(), shapes::scan(5000, {})));
     std::vector<double> first;
-    for (const int threads : {1, 2, 3, 2}) {
+#ifdef MULTIRES_SANITIZED
+    const std::vector<int> runs = {2, 3};  // one thread has no races
+#else
+    const std::vector<int> runs = {1, 2, 3, 2};
+#endif
+    for (const int threads : runs) {
         const Threads scope(threads);
         const std::vector<double> now = fixtures::numbers(run(filter(), layer));
         EXPECT_TRUE(finite(now));
