@@ -71,7 +71,7 @@ CandidateMaker::LowPasses CandidateMaker::spatial(std::size_t levels) const {
     LowPasses low(levels, std::vector<double>(3 * probe_.size()));
     int done = 0;
     for (std::size_t level = 0; level < levels; ++level) {
-        p = taubin(near_, std::move(p), low_pass_steps[level] - done, -0.5);
+        p = taubin(near_, std::move(p), low_pass_steps[level] - done);
         done = low_pass_steps[level];
         parallel_for(near_.rows(), [&](Index v) {
             for (int c = 0; c < 3; ++c)

@@ -46,6 +46,21 @@ void averaged(const Neighbours& near, std::vector<double>& values, int steps) {
     }
 }
 
+template <class Value>
+Array<Value> taubin_steps(const Neighbours& near, Array<Value> p, int steps, double outwards) {
+    Array<Value> next(p.size());
+    for (int step = 0; step < 2 * steps; ++step) {
+        const double factor = step % 2 == 0 ? 0.5 : outwards;
+        parallel_for(near.rows(), [&](Index v) {
+            Value sum = Value::Zero();
+            for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) sum += p[near.vertex[k]];
+            next[v] = near.size(v) > 0 ? Value(p[v] + factor * (sum / near.size(v) - p[v])) : p[v];
+        });
+        p.swap(next);
+    }
+    return p;
+}
+
 }  // namespace
 
 Neighbours neighbours(const Faces& faces, const Incidence& at) {
@@ -102,31 +117,12 @@ std::vector<double> cotangent_weights(const Faces& faces, const Incidence& at, c
     return weight;
 }
 
-namespace {
-
-template <class Value>
-Array<Value> taubin_steps(const Neighbours& near, Array<Value> p, int steps, double outwards) {
-    Array<Value> next(p.size());
-    for (int step = 0; step < 2 * steps; ++step) {
-        const double factor = step % 2 == 0 ? 0.5 : outwards;
-        parallel_for(near.rows(), [&](Index v) {
-            Value sum = Value::Zero();
-            for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) sum += p[near.vertex[k]];
-            next[v] = near.size(v) > 0 ? Value(p[v] + factor * (sum / near.size(v) - p[v])) : p[v];
-        });
-        p.swap(next);
-    }
-    return p;
+Positions taubin(const Neighbours& near, Positions positions, int steps) {
+    return taubin_steps(near, std::move(positions), steps, -0.53);
 }
 
-}  // namespace
-
-Positions taubin(const Neighbours& near, Positions positions, int steps, double outwards) {
-    return taubin_steps(near, std::move(positions), steps, outwards);
-}
-
-Array<Eigen::Matrix3d> taubin(const Neighbours& near, Array<Eigen::Matrix3d> fields, int steps, double outwards) {
-    return taubin_steps(near, std::move(fields), steps, outwards);
+Array<Eigen::Matrix3d> taubin(const Neighbours& near, Array<Eigen::Matrix3d> fields, int steps) {
+    return taubin_steps(near, std::move(fields), steps, -0.5);
 }
 
 void average(const Neighbours& near, std::vector<double>& values, int width, int steps) {

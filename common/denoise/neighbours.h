@@ -26,10 +26,11 @@ Neighbours neighbours(const Faces& faces, const Incidence& at);
 std::vector<double> cotangent_weights(const Faces& faces, const Incidence& at, const Neighbours& near,
                                       const Positions& positions);
 
-/// Taubin's low pass with equal weights (1995): `steps` pairs of one step inwards, 0.5, and one outwards.
-Positions taubin(const Neighbours& near, Positions positions, int steps, double outwards = -0.53);
-/// The same of three fields of vectors at once, the columns: in two thirds of the time.
-Array<Eigen::Matrix3d> taubin(const Neighbours& near, Array<Eigen::Matrix3d> fields, int steps, double outwards);
+/// Taubin's low pass with equal weights (1995; 0.5 and -0.53): `steps` pairs of one step inwards and one outwards.
+Positions taubin(const Neighbours& near, Positions positions, int steps);
+/// The same with 0.5 and -0.5, as AlongNormals::smooth() does, of three fields of vectors at once, the columns: in two
+/// thirds of the time.
+Array<Eigen::Matrix3d> taubin(const Neighbours& near, Array<Eigen::Matrix3d> fields, int steps);
 
 /// Replaces each value by its mean with the neighbours' values, `steps` times.
 /// @param values  #V by `width`, interleaved; width is 1, 3 or 6

@@ -153,6 +153,21 @@ Array<Index> what_became(const std::vector<Step>& steps) {
     return now;
 }
 
+/// Faces between what their corners became, without those that a collapse left without an area.
+/// @param became  Index(Index vertex): the index of what is there now
+/// @param gone    bool(Index vertex): it went into another
+template <class Became, class Gone>
+void take_faces(const Faces& faces, const Became& became, const Gone& gone, Faces& left, std::vector<Index>& source) {
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const Face& was = faces[f];
+        const Face g = {became(was[0]), became(was[1]), became(was[2])};
+        const bool degenerate = g[0] == g[1] || g[1] == g[2] || g[2] == g[0];
+        if (degenerate && (gone(was[0]) || gone(was[1]) || gone(was[2]))) continue;
+        left.push_back(g);
+        source.push_back(static_cast<Index>(f));
+    }
+}
+
 /// The mesh of what is left.
 /// @param became  #V of the input, see what_became()
 /// @param left    their positions
@@ -166,14 +181,8 @@ Simplified mesh_of_rest(const Mesh& mesh, const Array<Index>& became, const Norm
         out.positions.push_back(left.unless_still(mesh.positions[v], left.positions[became[v]]));
     }
     const auto corner = [&](Index v) { return index[became[v] >= 0 ? became[v] : ~became[v]]; };
-    for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
-        const Face& was = mesh.faces[f];
-        const Face g = {corner(was[0]), corner(was[1]), corner(was[2])};
-        const bool degenerate = g[0] == g[1] || g[1] == g[2] || g[2] == g[0];
-        if (degenerate && (became[was[0]] < 0 || became[was[1]] < 0 || became[was[2]] < 0)) continue;
-        out.faces.push_back(g);
-        out.source_face.push_back(static_cast<Index>(f));
-    }
+    take_faces(
+        mesh.faces, corner, [&](Index v) { return became[v] < 0; }, out.faces, out.source_face);
     return out;
 }
 
@@ -216,14 +225,9 @@ LevelMesh mesh_of_places(const Hierarchy& h, const Faces& faces, const Array<Ind
     Array<Index> of_input(h.vertices());
     parallel_for(h.vertices(), [&](Index p) { of_input[h.order[p]] = gone_to[p]; });
     LevelMesh mesh;
-    for (std::size_t f = 0; f < faces.size(); ++f) {
-        const Face& was = faces[f];
-        const Face g = {of_input[was[0]], of_input[was[1]], of_input[was[2]]};
-        const bool degenerate = g[0] == g[1] || g[1] == g[2] || g[2] == g[0];
-        if (degenerate && (h.order[g[0]] != was[0] || h.order[g[1]] != was[1] || h.order[g[2]] != was[2])) continue;
-        mesh.faces.push_back(g);
-        mesh.source_face.push_back(static_cast<Index>(f));
-    }
+    const auto became = [&](Index v) { return of_input[v]; };
+    take_faces(
+        faces, became, [&](Index v) { return h.order[of_input[v]] != v; }, mesh.faces, mesh.source_face);
     return mesh;
 }
 

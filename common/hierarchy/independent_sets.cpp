@@ -91,9 +91,8 @@ Candidates rank_vertices(const State& s, const HierarchyOptions& options) {
 /// that their seams leave no trace in the levels.
 class Selection {
 public:
-    /// @param strict  no collapse costs more than the step's limit: none to another target than the cheapest, if that
-    /// is
-    ///                barred, and none if all of the share are
+    /// @param strict  no collapse costs more than the step's limit: where the cheapest target is barred, others that do
+    ///                are not taken, and nothing if all of the share are barred
     Selection(const State& s, const HierarchyOptions& options, bool strict)
         : s_(s), options_(options), share_(options.set_share),
           strict_(strict), limits_{std::cos(radians(options.normal_limit_degrees))}, degree_(s.rings.rows()),
@@ -265,7 +264,7 @@ void number(const Array<Index>& parent, Index odd, Step& step) {
 }
 
 /// The state after a step: even vertices only, renumbered in their order.
-/// @param move  see move_vertices()
+/// @param move    see move_vertices()
 /// @param degree  sizes of the rings after the step
 State next_state(const State& s, const Step& step, const Array<Index>& degree, const HierarchyOptions& options,
                  bool move) {

@@ -18,13 +18,12 @@ struct Simplified {
 };
 
 /// Half-edge collapses in independent sets, as build_hierarchy() does them with Split::quadric, in which the vertex
-/// that stays moves to where it fits the faces that were there best (see offset_of_best_place()). Boundary, features
+/// that stays moves to where it fits the faces that were there best (see move_vertices()). Boundary, features
 /// and what is not manifold stay where they are. No face is turned over by a move. The result does not depend on the
 /// number of threads.
 /// @param options  normal_limit_degrees, set_share, boundary_weight and seed count
-/// @return as few vertices and faces as either goal says; or more, if all collapses of the cheapest set_share are
-/// barred
-///         at some step: then others would cost more than they should, and another order does better
+/// @return as few vertices and faces as either goal says; or more: if all collapses of the cheapest set_share are
+///         barred at some step, others would cost more than they should, and another order does better
 /// Cost: linear in #V.
 Simplified simplify(const Mesh& mesh, Rings rings, const HierarchyOptions& options, const SimplifyGoal& goal,
                     const Tick& tick = {});

@@ -30,13 +30,6 @@ Face ascending(Face f) {
     return f;
 }
 
-Index count_unreferenced(const Mesh& mesh) {
-    std::vector<std::uint8_t> referenced(mesh.positions.size(), 0);
-    for (const Face& f : mesh.faces)
-        for (Index v : f) referenced[v] = 1;
-    return static_cast<Index>(std::count(referenced.begin(), referenced.end(), 0));
-}
-
 Index count_duplicate_vertices(const Positions& positions) {
     const auto n = static_cast<Index>(positions.size());
     if (n == 0) return 0;
@@ -81,7 +74,8 @@ Index count_duplicate_faces(Index vertices, const Faces& faces) {
 }
 
 void count_vertices(const Mesh& mesh, InputCounts& counts) {
-    counts.unreferenced_vertices = count_unreferenced(mesh);
+    const std::vector<std::uint8_t> used = vertices_in_faces(mesh);
+    counts.unreferenced_vertices = static_cast<Index>(std::count(used.begin(), used.end(), 0));
     counts.duplicate_vertices = count_duplicate_vertices(mesh.positions);
 }
 
@@ -187,6 +181,13 @@ void require_extent(const Positions& positions) {
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> vertices_in_faces(const Mesh& mesh) {
+    std::vector<std::uint8_t> used(mesh.positions.size(), 0);
+    for (const Face& f : mesh.faces)
+        for (const Index v : f) used[v] = 1;
+    return used;
+}
 
 InputCounts count_input(const Mesh& mesh, Index irregular) {
     InputCounts counts;

@@ -5,6 +5,8 @@
 #include "mesh/rings.h"
 
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace multires {
 
@@ -25,6 +27,9 @@ struct InputCounts {
     Index non_orientable_components = 0;  ///< sets of faces connected by edges of two faces; Möbius bands
 };
 
+/// #V flags: which vertices some face has, degenerate or not.
+std::vector<std::uint8_t> vertices_in_faces(const Mesh& mesh);
+
 /// Counts what is unusual.
 /// @param mesh       face indices in range
 /// @param irregular  how many of its vertex_rings() are RingKind::irregular, if that is known
@@ -33,9 +38,8 @@ InputCounts count_input(const Mesh& mesh, Index irregular);
 InputCounts count_input(const Mesh& mesh);
 
 /// Does nothing if filters can work on the mesh.
-/// @throws InputError  for no vertices, no faces, coordinates that are not finite, a box whose diagonal is zero or
-/// beyond
-///                     what can be squared safely (outside 1e-70 .. 1e70), or no face with an area; with a message for
+/// @throws InputError  for no vertices, no faces, coordinates that are not finite, a box whose diagonal is zero or more
+///                     than can be squared safely (outside 1e-70 .. 1e70), or no face with an area; with a message for
 ///                     the user
 /// Cost: linear.
 void require_usable(const Mesh& mesh);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 // Quartic box-spline wavelets on triangular grids (Dreger, Gross and Schlegel) as a scheme. Its hierarchy is that of
 // the lattice, and what the transform has beyond one number a vertex fits into what schemes may store:
@@ -23,17 +24,23 @@ namespace {
 constexpr int types = subbands - 1;
 constexpr SplineBasis basis = SplineBasis::quartic;
 
-Grid grid_of(const Array<LatticePlace>& lattice, Index number) {
-    Grid grid;
-    for (const LatticePlace& p : lattice)
-        if (p.grid == number) grid.rows = std::max(grid.rows, p.i + 1), grid.columns = std::max(grid.columns, p.j + 1);
-    grid.vertex.assign(static_cast<std::size_t>(grid.rows) * grid.columns, -1);
+/// The grids whose points are places.
+std::vector<Grid> grids_of(const Array<LatticePlace>& lattice) {
+    std::vector<Grid> grids;
+    for (const LatticePlace& p : lattice) {
+        if (p.grid < 0) continue;
+        grids.resize(std::max(grids.size(), static_cast<std::size_t>(p.grid) + 1));
+        Grid& grid = grids[p.grid];
+        grid.rows = std::max(grid.rows, p.i + 1), grid.columns = std::max(grid.columns, p.j + 1);
+        ++grid.vertices;
+    }
+    for (Grid& grid : grids) grid.vertex.assign(static_cast<std::size_t>(grid.rows) * grid.columns, -1);
     for (std::size_t place = 0; place < lattice.size(); ++place)
-        if (const LatticePlace& p = lattice[place]; p.grid == number) {
+        if (const LatticePlace& p = lattice[place]; p.grid >= 0) {
+            Grid& grid = grids[p.grid];
             grid.vertex[static_cast<std::size_t>(p.i) * grid.columns + p.j] = static_cast<Index>(place);
-            ++grid.vertices;
         }
-    return grid;
+    return grids;
 }
 
 Array<Index> points_of(const Mask& mask) {
@@ -100,13 +107,11 @@ void add_ring(const Grid& grid, const LatticePlace& at, Index step, Rings& rings
 class Dreger final : public Scheme {
 public:
     explicit Dreger(const Hierarchy& h) : Scheme(h) {
-        Index grids = 0;
-        for (Index place = 0; place < h.vertices(); ++place) {
-            grids = std::max(grids, h.lattice[place].grid + 1);
+        for (Index place = 0; place < h.vertices(); ++place)
             if (h.lattice[place].grid < 0 || h.levels.empty()) kept_.push_back(place);
-        }
         const int levels = static_cast<int>(h.levels.size());
-        for (Index g = 0; levels > 0 && g < grids; ++g) parts_.emplace_back(grid_of(h.lattice, g), levels);
+        if (levels > 0)
+            for (Grid& grid : grids_of(h.lattice)) parts_.emplace_back(std::move(grid), levels);
         for (int k = 0; k < levels; ++k) rings_.push_back(rings_of(k));
     }
 

@@ -1,9 +1,11 @@
 #include "watermark/placing.h"
 
+#include "base/median.h"
 #include "base/parallel.h"
 #include "measure/distance.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
+#include "mesh/validation.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
@@ -12,6 +14,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
 #include <vector>
 
 namespace multires {
@@ -22,9 +27,7 @@ using Vector7 = Eigen::Matrix<double, 7, 1>;
 
 /// Every k-th vertex that a face has.
 Positions some_vertices(const Mesh& mesh, std::size_t most) {
-    std::vector<std::uint8_t> used(mesh.positions.size(), 0);
-    for (const Face& f : mesh.faces)
-        for (const Index v : f) used[v] = 1;
+    const std::vector<std::uint8_t> used = vertices_in_faces(mesh);
     Positions all;
     for (std::size_t i = 0; i < used.size(); ++i)
         if (used[i]) all.push_back(mesh.positions[i]);
@@ -153,8 +156,7 @@ private:
     Vector7 solved() const {
         std::vector<double> size;
         for (const auto& r : residual_) size.push_back(r.second);
-        std::nth_element(size.begin(), size.begin() + static_cast<std::ptrdiff_t>(size.size() / 2), size.end());
-        const double usual = std::max(2 * size[size.size() / 2], 1e-12);
+        const double usual = std::max(2 * upper_median(size), 1e-12);
         Matrix7 a = Matrix7::Zero();
         Vector7 b = Vector7::Zero();
         for (std::size_t i = 0; i < row_.size(); ++i) {

@@ -121,10 +121,6 @@ VcgLayer placed_layer(const MeshModel& model, const AttributeRequest& request) {
     return flat;
 }
 
-}  // namespace
-
-namespace {
-
 AttributeRequest requested_by(const plugin::Filter& filter, const MeshModel& model) {
     AttributeRequest request;
     request.color = filter.reads & plugin::vertex_color && model.hasDataMask(MeshModel::MM_VERTCOLOR);

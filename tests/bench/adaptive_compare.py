@@ -115,7 +115,7 @@ def main():
             except ImportError:
                 continue
             rms, largest = judge(truth, result)
-            print(f"{name:26}{len(result[1]):8}{1e4 * rms:8.2f}{1e4 * largest:9.1f}{clock:9.3f}{processor:9.3f}")
+            print(f"{name:26}{len(result[1]):8}{1e4 * rms:8.2f}{1e4 * largest:9.1f}{clock:9.4f}{processor:9.4f}")
 
 
 main()

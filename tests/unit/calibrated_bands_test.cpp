@@ -23,16 +23,6 @@ Options calibrated(Options options, LowPassOrder order = LowPassOrder::second) {
     return options;
 }
 
-template <class Run>
-std::string refusal(const Run& run) {
-    try {
-        run();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "";
-}
-
 double edge(const Layer& layer) { return mean_edge_length(layer.mesh.faces, layer.mesh.positions); }
 
 }  // namespace

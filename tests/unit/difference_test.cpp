@@ -30,12 +30,7 @@ std::vector<double> quality(const Layer& layer, const Layer& reference) {
 }
 
 std::string refusal(const Layer& layer, const Layer& reference, const DifferenceOptions& options = to_first()) {
-    try {
-        difference(layer, reference, options);
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "";
+    return fixtures::refusal([&] { difference(layer, reference, options); });
 }
 
 Mesh scaled(Mesh mesh, double factor) {

@@ -15,7 +15,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 #include <string>
 
 // The scheme of triangular grids in the filters of all meshes; scheme_test.cpp has what is true of every scheme.
@@ -25,6 +24,7 @@ namespace {
 
 using fixtures::largest_distance;
 using fixtures::layer_of;
+using fixtures::refusal;
 
 PyramidOptions dreger() {
     PyramidOptions options;
@@ -36,15 +36,6 @@ Mesh terrain(double noise = 0.2) {
     shapes::GridShape shape;
     shape.rows = 60, shape.columns = 70, shape.hole = 6, shape.noise = noise;
     return shapes::grid_terrain(shape);
-}
-
-std::string error_of(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "";
 }
 
 }  // namespace
@@ -191,13 +182,12 @@ TEST(Dreger, RefusesByName) {
     Session session;
     ComputePyramidOptions options;
     options.pyramid = dreger();
-    EXPECT_EQ(error_of([&] { compute_pyramid(sphere, options, session); }).find("scheme: Dreger is for triangular"),
-              0u);
+    EXPECT_EQ(refusal([&] { compute_pyramid(sphere, options, session); }).find("scheme: Dreger is for triangular"), 0u);
     options.pyramid.features.from = Features::angle;
-    EXPECT_EQ(error_of([&] { compute_pyramid(grid, options, session); }).find("features: the scheme Dreger"), 0u);
+    EXPECT_EQ(refusal([&] { compute_pyramid(grid, options, session); }).find("features: the scheme Dreger"), 0u);
     TexcoordOptions texcoord;
     texcoord.projection = Projection::planar, texcoord.pyramid = dreger();
-    EXPECT_EQ(error_of([&] { generate_texcoord(grid, texcoord, session); }).find("scheme: Dreger does not start"), 0u);
+    EXPECT_EQ(refusal([&] { generate_texcoord(grid, texcoord, session); }).find("scheme: Dreger does not start"), 0u);
 }
 
 }  // namespace multires

@@ -26,6 +26,17 @@ inline Layer with_quality(Layer layer, std::vector<double> quality) {
     return layer;
 }
 
+/// What a call is refused with; empty if it is not.
+template <class Call>
+std::string refusal(const Call& call) {
+    try {
+        call();
+    } catch (const InputError& e) {
+        return e.what();
+    }
+    return "";
+}
+
 inline const Report::Value* find(const Report& report, const std::string& key) {
     for (const auto& entry : report.entries())
         if (entry.key == key) return &entry.value;

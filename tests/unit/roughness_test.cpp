@@ -69,12 +69,7 @@ void expect_alike(const Report& a, const Report& b, double share) {
 }
 
 std::string refusal(const Layer& layer, const RoughnessOptions& options) {
-    try {
-        measured(layer, options);
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "";
+    return fixtures::refusal([&] { measured(layer, options); });
 }
 
 }  // namespace

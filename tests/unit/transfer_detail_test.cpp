@@ -17,6 +17,7 @@ namespace {
 using fixtures::count;
 using fixtures::largest_distance;
 using fixtures::layer_of;
+using fixtures::refusal;
 using Similarity = fixtures::Motion;
 
 TransferDetailOptions from_layer() {
@@ -49,15 +50,6 @@ double rms_distance(const Positions& p, const Mesh& surface) {
     double sum = 0;
     for (const Vec3& q : p) sum += tree.closest(q).squared;
     return std::sqrt(sum / static_cast<double>(p.size()));
-}
-
-std::string refusal(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "";
 }
 
 }  // namespace

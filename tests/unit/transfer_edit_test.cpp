@@ -22,6 +22,7 @@ using fixtures::largest_distance;
 using fixtures::layer_of;
 using Similarity = fixtures::Motion;
 using fixtures::number;
+using fixtures::refusal;
 
 TransferEditOptions pair_options() {
     TransferEditOptions o;
@@ -39,15 +40,6 @@ Result follow(const Layer& layer, const Layer& before, const Layer& edited,
 /// With the edited layer alone.
 Result follow(const Layer& layer, const Layer& edited, const TransferEditOptions& options = pair_options()) {
     return follow(layer, edited, edited, options);
-}
-
-std::string refusal(const std::function<void()>& call) {
-    try {
-        call();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "";
 }
 
 Mesh mapped(Mesh mesh, const std::function<Vec3(const Vec3&)>& map) {

@@ -18,6 +18,7 @@ namespace {
 using fixtures::count;
 using fixtures::layer_of;
 using fixtures::number;
+using fixtures::refusal;
 
 const std::string message = "0123456789abcdef";
 
@@ -45,16 +46,6 @@ Report reading(const Layer& layer, const Layer& original, const std::string& key
     o.original.place = 0, o.key = key, o.expected = expected;
     Session session;
     return read_watermark({layer, {&original}}, o, session).report;
-}
-
-template <class Run>
-std::string refusal(const Run& run) {
-    try {
-        run();
-    } catch (const InputError& e) {
-        return e.what();
-    }
-    return "";
 }
 
 double diagonal(const Positions& positions) { return bounding_box(positions).diagonal(); }

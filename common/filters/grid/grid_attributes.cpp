@@ -15,19 +15,20 @@ Result grid_attributes_band(const Layer& layer, const GridAttributeBandOptions& 
     session.progress.report(0, "Finding the grid");
     const FoundGrids found = grids_of(layer, band.grid);
     const std::vector<GridPyramid> pyramids = pyramids_of(found, band.grid);
+    std::vector<std::vector<double>> gains;
+    for (const GridPyramid& pyramid : pyramids) gains.push_back(grid_gains(band, pyramid, layer));
     for (std::size_t a = 0; a < all.size(); ++a) {
         session.progress.report(0.1 + 0.9 * static_cast<double>(a) / static_cast<double>(all.size()), "Transforming");
         Field after = all[a].field;
         for (std::size_t g = 0; g < pyramids.size(); ++g) {
-            const std::vector<double> gains = grid_gains(band, pyramids[g], layer);
-            if (std::all_of(gains.begin(), gains.end(), [](double x) { return x == 1; })) continue;
+            if (std::all_of(gains[g].begin(), gains[g].end(), [](double x) { return x == 1; })) continue;
             const GridSignal signal(found.grids[g], all[a].field);
-            signal.add(change_by_gains(signal, pyramids[g], gains), after);
+            signal.add(change_by_gains(signal, pyramids[g], gains[g]), after);
         }
         result.attributes.push_back(changed_attribute(layer, all[a], after, weights, result.report));
     }
     result.report.add("grids", static_cast<int>(found.grids.size()));
-    result.report.add("gains", grid_gains(band, pyramids[0], layer));
+    result.report.add("gains", gains[0]);
     return result;
 }
 

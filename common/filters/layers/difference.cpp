@@ -62,9 +62,7 @@ std::vector<double> low_passed(const std::vector<double>& values, const Layer& l
 void report_difference(const Mesh& mesh, const Positions& world, const std::vector<double>& value, double beyond,
                        Report& report) {
     const std::vector<double> area = area_shares(mesh.faces, world);
-    std::vector<std::uint8_t> used(value.size(), 0);
-    for (const Face& f : mesh.faces)
-        for (const Index v : f) used[v] = 1;
+    const std::vector<std::uint8_t> used = vertices_in_faces(mesh);
     double total = 0, sum = 0, squares = 0, outside = 0;
     double largest = -std::numeric_limits<double>::infinity(), smallest = -largest;
     for (std::size_t i = 0; i < value.size(); ++i) {

@@ -56,8 +56,8 @@ Result watermark(const Layer& layer, const WatermarkOptions& options, Session& s
     result.report.add("carriers", static_cast<int>(carriers.size()));
     result.report.add("carrier_spacing", carriers.spacing(), "mesh units");
     if (carriers.size() < Carriers::most)
-        result.report.say("Only " + std::to_string(carriers.size()) +
-                          " of 280 places for the mark, for want of vertices: " + "the message may not be readable");
+        result.report.say("Only " + std::to_string(carriers.size()) + " of " + std::to_string(Carriers::most) +
+                          " places for the mark, for want of vertices: the message may not be readable");
     result.positions = std::move(after);
     return result;
 }
