@@ -16,6 +16,7 @@ Result grid_attributes_band(const Layer& layer, const GridAttributeBandOptions& 
     const FoundGrids found = grids_of(layer, band.grid);
     const std::vector<GridPyramid> pyramids = pyramids_of(found, band.grid);
     std::vector<std::vector<double>> gains;
+    gains.reserve(pyramids.size());
     for (const GridPyramid& pyramid : pyramids) gains.push_back(grid_gains(band, pyramid, layer));
     for (std::size_t a = 0; a < all.size(); ++a) {
         session.progress.report(0.1 + 0.9 * static_cast<double>(a) / static_cast<double>(all.size()), "Transforming");
