@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/reduce.h"
 #include "denoise/lattice.h"
+#include "denoise/white_share.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
 #include "normals/guided_normals.h"
@@ -136,6 +137,7 @@ struct Assumed {
     std::vector<double> deviation;  ///< #V: along the normals, mesh units, times `factor`
     double factor = 1;              ///< see allowance()
     double certain = 1;             ///< share of the variance that there is at least
+    double white = 1;               ///< see SurfaceNoise
     int normal_steps = 3;           ///< see normal_steps()
 };
 
@@ -143,6 +145,7 @@ struct Choice {
     Eigen::VectorXd weights;
     double before = 0, after = 0;  ///< mean square error of the heights
     double gain = 0;               ///< what it falls by at least
+    double safe = 1;               ///< share of the best move that gains even with as little noise as is certain
 };
 
 /// Weights so small that their candidates are not worth making go to the others.
@@ -233,7 +236,10 @@ Choice choose(const Faces& faces, const Positions& positions, const Incidence& a
         r = risks(near, responses.all, noise.deviation, maker.probe(), core);
         choice.weights = weights_of(r);
     }
-    const double certain = noise.certain / (noise.factor * noise.factor);
+    const double removed = white_share_removed(AlongNormals(near, positions, p.normal, p.weight), near, responses.all,
+                                               choice.weights, core);
+    const double certain = noise.certain * std::max(noise.white, removed) / (noise.factor * noise.factor);
+    choice.safe = std::min(1.0, 2 * certain);
     choice.weights *=
         std::min(safe_share(r.edges, choice.weights, certain), safe_share(r.heights, choice.weights, certain));
     // What is expected goes with the deviation as it was found.
@@ -259,7 +265,7 @@ Choice choose_on_sample(const Faces& faces, const Positions& positions, const In
     const Incidence sample_at = vertex_faces(sample.faces, static_cast<Index>(sample.positions.size()));
     const Neighbours sample_near = neighbours(sample.faces, sample_at);
     return choose(sample.faces, sample.positions, sample_at, sample_near,
-                  {sample.deviation, noise.factor, noise.certain, noise.normal_steps}, sample.core, tick);
+                  {sample.deviation, noise.factor, noise.certain, noise.white, noise.normal_steps}, sample.core, tick);
 }
 
 /// What of the shifts within the surface is made.
@@ -275,8 +281,10 @@ Shares safe_shares(const WithinSurface& within, const Choice& choice) {
     const double smoothed = mean_square(within.smoothing), turned = shares.turning * mean_square(within.turning);
     double allowed = (within.likely ? 0.8 : 0.25) * choice.gain;
     if (within.noisy) {
+        shares.smoothing = choice.safe;
+        shares.turning *= choice.safe;
         allowed += 0.9 * std::max(0.0, within.before * within.before - within.after * within.after);
-        if (turned > allowed) shares.turning = std::sqrt(allowed / turned);
+        if (turned > allowed) shares.turning = std::min(shares.turning, std::sqrt(allowed / turned));
     } else if (smoothed + turned > allowed) {
         const double share = std::sqrt(allowed / (smoothed + turned));
         shares.smoothing *= share;
@@ -295,7 +303,11 @@ Positions shifted(const Positions& p, const WithinSurface& within, const Shares&
 /// Mean square error within the surface after the shifts, as far as it is known.
 double error_within(const WithinSurface& within, const Shares& shares) {
     const double turned = shares.turning * shares.turning * mean_square(within.turning);
-    if (within.noisy) return within.after * within.after + turned;
+    if (within.noisy) {
+        const double left = (1 - shares.smoothing) * (1 - shares.smoothing);
+        return within.after * within.after + left * (within.before * within.before - within.after * within.after) +
+               turned;
+    }
     return shares.smoothing * shares.smoothing * mean_square(within.smoothing) + turned;
 }
 
@@ -332,6 +344,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     SurfaceNoise noise = rounded ? *rounded : surface_noise(faces, start, at, near, stats.edge);
     if (options.deviation) {
         noise.along_normals = noise.at_least = *options.deviation;
+        noise.white = 1;
         noise.axis.reset();
     }
     Assumed assumed;
@@ -348,10 +361,12 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     tick(0.25, "Choosing");
     const double in_edges = noise.along_normals / stats.edge;
     assumed.factor = allowance(in_edges, count) * (rounded ? 1 + terraces * in_edges : 1);
+    assumed.white = noise.white;
     assumed.normal_steps = normal_steps(in_edges);
     for (double& d : assumed.deviation) d *= options.strength * assumed.factor;
     const Choice choice = choose_on_sample(faces, shifted(start, within, Shares()), at, near, assumed,
                                            [&](double f) { tick(0.25 + 0.4 * f, "Choosing"); });
+    if (!(choice.safe > 0)) return start;
     const Shares shares = safe_shares(within, choice);
     const Positions relaxed = shifted(start, within, shares);
     const Prepared p = prepared(faces, relaxed, at, near, assumed.normal_steps);

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "denoise/energies.h"
+#include "denoise/white_share.h"
 #include "measure/vertex_normals.h"
 
 #include <algorithm>
@@ -56,8 +57,42 @@ struct Findings {
     double mean = 0, median = 0;              ///< of the third details
     double lower = 0, low = 0;                ///< what three tenths, and one tenth, of them stay below
     double peakedness = 0;                    ///< of the third details
+    double white = 1;                         ///< share of the third details: see white_share()
     std::optional<AxisNoise> axis;
     double peakedness_along_axis = 0;  ///< of the third details, beside noise along the axis
+};
+
+/// Sum of the squares of the details of the samples of noise.
+double noise_energy(const std::vector<double>& detail, const std::vector<Index>& inner) {
+    double sum = 0;
+    for (const Index v : inner)
+        for (int c = 1; c < 3; ++c) sum += detail[3 * v + c] * detail[3 * v + c];
+    return sum;
+}
+
+/// How white third details are beside fifth ones, see white_share(), gathered over samples of noise.
+struct Whiteness {
+    std::array<double, 2> third{}, fifth{};  ///< energies that a tenth and half of the surface stay below
+    double falls = 0;
+    int samples = 0;
+
+    void add(const AlongNormals& surface, const Neighbours& near, const std::vector<Index>& inner,
+             const std::vector<double>& second, const std::vector<double>& thirds, const Energies& energy) {
+        const std::vector<double> fourth = surface.linear_detail(thirds), fifths = surface.linear_detail(fourth);
+        const Energies fine = local_energies(near, local_squares(near, fifths), inner);
+        constexpr std::array<double, 2> share = {0.1, 0.5};
+        for (std::size_t q = 0; q < share.size(); ++q) {
+            third[q] += energy.quantile(share[q]);
+            fifth[q] += fine.quantile(share[q]);
+        }
+        falls += noise_energy(fourth, inner) / noise_energy(fifths, inner) * noise_energy(thirds, inner) /
+                 noise_energy(second, inner);
+        ++samples;
+    }
+    double share() const {
+        return std::max(white_share(third[0], fifth[0], falls / samples),
+                        white_share(third[1], fifth[1], falls / samples));
+    }
 };
 
 /// Small meshes are compared with several samples of noise.
@@ -69,17 +104,19 @@ Findings findings(const Faces& faces, const Positions& p, const Incidence& at, c
     const std::vector<Index> inner = inner_vertices(near);
     const int repeats = std::clamp(20000 / std::max(1, near.rows()), 1, 8);
     Findings mean;
+    Whiteness whiteness;
     for (int repeat = 0; repeat < repeats; ++repeat) {
         std::vector<double> h(3 * near.rows(), 0);
         for (Index v = 0; v < near.rows(); ++v)
             for (int c = 1; c < 3; ++c) h[3 * v + c] = gaussian(v, 100 + 2 * repeat + c);
         const std::vector<double> first = surface.detail(h);
-        const std::vector<double> third = surface.linear_detail(surface.linear_detail(first));
+        const std::vector<double> second = surface.linear_detail(first), third = surface.linear_detail(second);
         surface.smooth(h, bend_steps);
         const std::vector<double> squares = local_squares(near, third);
         const Energies energy = local_energies(near, squares, inner);
         mean.quiet_first += quiet_energy(local_energies(near, local_squares(near, first), inner), edge) / repeats;
         mean.quiet_third += quiet_energy(energy, edge) / repeats;
+        whiteness.add(surface, near, inner, second, third, energy);
         const Energies bends = local_energies(near, local_squares(near, surface.detail(h)), inner);
         mean.without_bends += without_bends(energy, bends) / repeats;
         if (repeat == 0) mean.axis = axis_noise(near, base.normal, inner, energy, bends);
@@ -89,6 +126,7 @@ Findings findings(const Faces& faces, const Positions& p, const Incidence& at, c
         mean.low += energy.quantile(0.1) / repeats;
         mean.peakedness += peakedness(third, squares, inner) / repeats;
     }
+    mean.white = whiteness.share();
     if (mean.axis) {
         std::vector<double> h(3 * near.rows(), 0);
         for (Index v = 0; v < near.rows(); ++v)
@@ -213,6 +251,7 @@ SurfaceNoise surface_noise(const Faces& faces, const Positions& positions, const
     noise.along_normals = deviation;
     noise.at_least = std::sqrt(least_square(deviation * deviation, found, near.rows(), edge));
     const Array<Vec3> normal = smoothed(faces, positions, near, 3).normal;
+    noise.white = std::max(0.0, found.white - error_of_white_share(near.rows()));
     add_axis(found, normal, noise);
     find_within_surface(positions, near, normal, noise);
     return noise;

@@ -10,6 +10,8 @@ struct SurfaceNoise {
     /// What it is at least, mesh units: details that are not taken for noise elsewhere, and details that stand out
     /// of those around them as noise does not, tell how far shape may have been taken for noise.
     double at_least = 0;
+    /// Share of the square that is white noise if the rest is a rough surface: see white_share(). Creases make it less.
+    double white = 1;
     /// Of the vertices' places within the surface in each of two directions, mesh units: an upper bound of the noise
     /// there, for an irregular sampling looks the same.
     double within_surface = 0;

@@ -127,7 +127,8 @@ void judge(const Faces& faces, const Positions& p, const Positions& more, const 
     Positions even = p;
     for (std::size_t i = 0; i < p.size(); ++i) even[i] += to_even[i] + more[i];
     const double folded = folded_share(faces, p, normal), expected = folded_share(faces, even, normal);
-    out.noisy = folded > 0.001 && folded > (noise.within_surface < 1.3 * noise.along_normals ? 0.6 : 1.2) * expected;
+    const double irregular = std::clamp((noise.within_surface / noise.along_normals - 1.15) / 0.15, 0.0, 1.0);
+    out.noisy = folded > 0.001 && folded > (0.6 + 0.6 * irregular) * expected;
     out.perhaps = !out.noisy && folded >= 0.3 * expected;
     out.likely = out.perhaps && noise.likely_all && folded >= 0.6 * expected;
 }
