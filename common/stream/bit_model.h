@@ -1,21 +1,13 @@
 #pragma once
 
 #include "stream/bit_coder.h"
+#include "stream/elementary.h"
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace multires::stream {
-
-/// e^x for |x| <= 30 or so, from basic operations alone: the same on all machines, to 1e-9.
-double exponential(double x);
-
-/// log2 x of x > 0, from basic operations alone, to 1e-7.
-double logarithm(double x);
-
-/// floor(per_octave log2 x) for per_octave 1, 2 or 3, from basic operations alone; far down for x <= 0.
-int octave_steps(double x, int per_octave);
 
 /// A bit predicted by several contexts at once: each keeps an adaptive probability, and a logistic mixture whose
 /// weights learn from every bit weighs them (Mahoney 2005, "Adaptive weighing of context models for lossless data

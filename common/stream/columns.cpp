@@ -22,6 +22,19 @@ std::vector<Index> sorted_faces(Index count, const FaceOf& face) {
     return order;
 }
 
+/// The ordinals of the first vertex, if all others have the same; else none.
+std::vector<std::int64_t> same_of(const Attribute& a, Storage storage) {
+    std::vector<std::int64_t> out;
+    for (std::size_t i = 0; i < a.values.size(); ++i) {
+        const std::int64_t x = ordinal(a.values[i], storage);
+        if (i < static_cast<std::size_t>(a.width))
+            out.push_back(x);
+        else if (x != out[i % a.width])
+            return {};
+    }
+    return out;
+}
+
 Storage read_storage(ByteReader& in) {
     const int s = in.byte();
     require(s == 1 || s == 4 || s == 8, "the stream is damaged: how numbers are stored");
@@ -33,12 +46,18 @@ Storage read_storage(ByteReader& in) {
 Columns::Columns(std::vector<Header::Column> columns) : columns_(std::move(columns)), value_(columns_.size()) {}
 
 std::vector<Header::Column> Columns::describe(const std::vector<Attribute>& attributes) {
+    require(attributes.size() <= most_attributes, "the mesh has more than 256 attributes");
     std::vector<Header::Column> out;
     for (const Attribute& a : attributes) {
         require(a.width >= 1 && a.width <= 4, "an attribute has more than four numbers a vertex");
-        out.push_back({a.kind, a.name, a.width, storage_of(a.values)});
+        const Storage storage = storage_of(a.values);
+        out.push_back({a.kind, a.name, a.width, storage, same_of(a, storage)});
     }
     return out;
+}
+
+bool Columns::empty() const {
+    return std::all_of(columns_.begin(), columns_.end(), [](const Header::Column& c) { return !c.same.empty(); });
 }
 
 std::int64_t Columns::guess(std::size_t column, Index v, int c, const std::vector<Index>& parents) const {
@@ -51,6 +70,7 @@ Bytes Columns::pack(const std::vector<Attribute>& attributes, const std::vector<
     ByteWriter out;
     out.number(until - known_);
     for (std::size_t k = 0; k < columns_.size(); ++k) {
+        if (!varies(k)) continue;
         const int width = columns_[k].width;
         std::vector<std::int64_t> differences;
         for (Index v = known_; v < until; ++v)
@@ -70,6 +90,7 @@ Bytes Columns::pack(const std::vector<Attribute>& attributes, const std::vector<
 void Columns::unpack(ByteReader& in, const std::vector<Index>& parents, Index until) {
     const auto count = static_cast<Index>(in.number_up_to(until - known_));
     for (std::size_t k = 0; k < columns_.size(); ++k) {
+        if (!varies(k)) continue;
         const int width = columns_[k].width;
         const std::vector<std::int64_t> differences =
             unpacked(in, static_cast<std::size_t>(count) * width, width_of(columns_[k].storage));
@@ -85,13 +106,15 @@ void Columns::unpack(ByteReader& in, const std::vector<Index>& parents, Index un
 std::vector<Attribute> Columns::attributes(const std::vector<Index>& parents) const {
     std::vector<Attribute> out;
     for (std::size_t k = 0; k < columns_.size(); ++k) {
-        const auto& [kind, name, width, storage] = columns_[k];
+        const auto& [kind, name, width, storage, same] = columns_[k];
         Attribute a{kind, name, width, {}};
         a.values.resize(parents.size() * width);
         for (Index v = 0; v < static_cast<Index>(parents.size()); ++v)
             for (int c = 0; c < width; ++c) {
                 const std::size_t at = static_cast<std::size_t>(v) * width + c;
-                if (v < known_)
+                if (!same.empty())
+                    a.values[at] = real(same[c], storage);
+                else if (v < known_)
                     a.values[at] = real(value_[k][at], storage);
                 else if (parents[v] >= 0)
                     a.values[at] = a.values[static_cast<std::size_t>(parents[v]) * width + c];
@@ -157,7 +180,7 @@ std::vector<Wedge> unpacked_wedges(ByteReader& in, const StarMesh& mesh) {
     std::vector<Wedge> out(corners);
     std::int64_t texture = 0;
     for (std::size_t i = 0; i < corners; ++i) {
-        const std::size_t at = 2 * static_cast<std::size_t>(mesh.origin(static_cast<Index>(i)));
+        const std::size_t at = 2 * static_cast<std::size_t>(mesh.face(static_cast<Index>(i / 3))[i % 3]);
         for (int c = 0; c < 2; ++c)
             last[at + c] = static_cast<std::int64_t>(static_cast<std::uint64_t>(last[at + c]) +
                                                      static_cast<std::uint64_t>(numbers[2 * i + c]));

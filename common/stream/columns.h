@@ -12,7 +12,7 @@ public:
     Columns() = default;
     explicit Columns(std::vector<Header::Column> columns);
 
-    /// Describes the attributes of a layer. @throws InputError  for widths that the format has not
+    /// Describes the attributes of a layer. @throws InputError  for widths and numbers of them that the format has not
     static std::vector<Header::Column> describe(const std::vector<Attribute>& attributes);
 
     /// Vertices `known()` to `until - 1`, which are appended.
@@ -22,11 +22,13 @@ public:
     void unpack(ByteReader& in, const std::vector<Index>& parents, Index until);
 
     Index known() const { return known_; }
-    bool empty() const { return columns_.empty(); }
+    /// True if no vertex has anything of its own.
+    bool empty() const;
     /// All of them for the vertices there are; those not known yet are like their parents.
     std::vector<Attribute> attributes(const std::vector<Index>& parents) const;
 
 private:
+    bool varies(std::size_t column) const { return columns_[column].same.empty(); }
     std::int64_t guess(std::size_t column, Index v, int c, const std::vector<Index>& parents) const;
 
     std::vector<Header::Column> columns_;

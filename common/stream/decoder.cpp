@@ -24,11 +24,12 @@ bool Decoder::take_piece() {
     const std::size_t there = buffer_.size() - at_;
     if (there == 0) return false;
     if (stage_ == Stage::signature) {
-        const std::size_t n = std::min(there, sizeof signature);
-        require(std::memcmp(buffer_.data(), signature, std::min<std::size_t>(n, 7)) == 0, "this is no .mrm file");
-        if (n < sizeof signature) return false;
-        require(buffer_[7] == signature[7], "this .mrm file is of a version that is not known here");
-        at_ = n;
+        const std::size_t n = sizeof signature;
+        require(std::memcmp(buffer_.data(), signature, std::min(n, there)) == 0, "this is no .mrm file");
+        if (there <= n) return false;
+        require(buffer_[n] >= 1 && buffer_[n] <= newest_version,
+                "this .mrm file is of a version that is not known here");
+        at_ = n + 1;
         stage_ = Stage::header;
         return true;
     }

@@ -60,6 +60,7 @@ public:
         ByteWriter header;
         header_.write(header);
         Bytes out(signature, signature + sizeof signature);
+        out.push_back(header_.version());
         for (const Bytes& part : {framed(Piece::header, header.bytes()), body_.bytes()})
             out.insert(out.end(), part.begin(), part.end());
         return out;
@@ -165,12 +166,17 @@ private:
         for (const Cell& c : progress_->cells()) plain.push_back(header_.place(c, plan_->bits_less));
         double least = 0;
         const std::size_t count = cells_.size(), stride = std::max<std::size_t>(1, count / 3000);
+        std::vector<Index> hint(count / stride + 1, -1);  // a face that was near before makes the search short
         for (const double share : {0.0, 0.125, 0.25}) {
             Positions bulged = plain;
             add_bulge(mesh, plain, share, bulged);
             const SurfaceTree tree(faces, bulged);
             double sum = 0;
-            for (std::size_t i = 0; i < count; i += stride) sum += tree.closest(header_.place(cells_[i], 0)).squared;
+            for (std::size_t i = 0; i < count; i += stride) {
+                const SurfaceTree::Hit hit = tree.closest(header_.place(cells_[i], 0), hint[i / stride]);
+                hint[i / stride] = hit.face;
+                sum += hit.squared;
+            }
             if (share > 0 && sum >= 0.97 * least) continue;
             least = sum;
             header_.bulge = share;

@@ -18,23 +18,23 @@ int ratio_bucket(double a, double b) { return b > 0 ? clamp(octave_steps(a / b, 
 
 }  // namespace
 
-void StarShape::take(const StarMesh& mesh, const Positions& p, Index u, const std::vector<Index>& batch_of,
-                     Index batch) {
+void StarShape::take(const StarMesh& mesh, Index u, Index batch) {
     mesh.star(u, star);
     const Index d = star.faces();
-    taken.resize(d), area.resize(d), area_to.resize(d + 1);
-    valence.resize(d + 1), length.resize(d + 1), cotangent.assign(d + 1, 0), bend.assign(d + 1, 0);
-    normal.resize(d);
-    for (Index i = 0; i <= d; ++i) {
-        valence[i] = mesh.valence(star.spoke[i]);
-        length[i] = stream::length(p[star.spoke[i]] - p[u]);
-    }
-    area_to[0] = 0;
+    taken.resize(d), area.resize(d), area_to.resize(d + 1), normal.resize(d);
+    valence.resize(d + 1), length.resize(d + 1), bend.resize(d + 1), cotangent.resize(d + 1);
+    area_to[0] = bend[0] = bend[d] = cotangent[0] = 0;
+    const Vec3& centre = mesh.point(u);
+    Vec3 b = mesh.point(star.spoke[0]) - centre;
     for (Index i = 0; i < d; ++i) {
-        taken[i] = batch_of[star.leaving[i] / 3] == batch;
-        const Vec3 a = p[star.spoke[i]] - p[u], b = p[star.spoke[i + 1]] - p[u];
+        taken[i] = mesh.mark(StarMesh::face_of(star.leaving[i])) == batch;
+        const Vec3 a = b;
+        b = mesh.point(star.spoke[i + 1]) - centre;
+        valence[i] = mesh.valence(star.spoke[i]);
+        length[i] = stream::length(a);
         normal[i] = cross(a, b);
         const double twice = stream::length(normal[i]);
+        cotangent[i + 1] = 0;
         if (twice > 0) {
             normal[i] /= twice;
             cotangent[i] += dot(b, b - a) / twice;
@@ -42,8 +42,10 @@ void StarShape::take(const StarMesh& mesh, const Positions& p, Index u, const st
         }
         area[i] = twice / 2;
         area_to[i + 1] = area_to[i] + area[i];
+        if (i > 0) bend[i] = 1 - dot(normal[i - 1], normal[i]);
     }
-    for (Index i = 1; i < d; ++i) bend[i] = 1 - dot(normal[i - 1], normal[i]);
+    valence[d] = mesh.valence(star.spoke[d]);
+    length[d] = stream::length(b);
     if (star.closed) {
         cotangent[0] = cotangent[d] = cotangent[0] + cotangent[d];
         bend[0] = bend[d] = 1 - dot(normal[d - 1], normal[0]);
@@ -57,60 +59,77 @@ FanModel::FanModel() : is_it_({64, 64 * 16, 16 * 16, 16 * 64}, 16) {
 }
 
 void FanModel::rank(const StarShape& shape) {
-    candidates_.clear();
+    candidates_.clear(), score_.clear();
     const Index d = shape.star.faces();
     for (Index i = 0; i < d; ++i) {
         const Index most = std::min<Index>(most_faces, shape.star.closed ? d - 1 : d - i);
-        for (Index m = 1; m <= most && !shape.taken[(i + m - 1) % d]; ++m) add(shape, {Fan::inside, i, m});
+        Inner inner;
+        for (Index m = 1; m <= most; ++m) {
+            const Index face = i + m - 1 < d ? i + m - 1 : i + m - 1 - d;
+            if (shape.taken[face]) break;
+            if (m > 1) inner.add(shape, face);
+            add(shape, {Fan::inside, i, m}, inner);
+        }
     }
     if (!shape.star.closed)
         for (Index m = 0; m <= std::min<Index>(most_faces, d); ++m) {
-            if (m == 0 || !shape.taken[m - 1]) add(shape, {Fan::first, 0, m});
-            if (m == 0 || !shape.taken[d - m]) add(shape, {Fan::last, d - m, m});
+            for (const Fan& fan : {Fan{Fan::first, 0, m}, Fan{Fan::last, d - m, m}}) {
+                if (m > 0 && shape.taken[fan.kind == Fan::first ? m - 1 : d - m]) continue;
+                Inner inner;
+                for (Index i = fan.start + 1; i < fan.start + m; ++i) inner.add(shape, i);
+                add(shape, fan, inner);
+            }
         }
-    double most = -1e9, sum = 0;
-    for (const Candidate& c : candidates_) most = std::max(most, c.score);
-    for (Candidate& c : candidates_) sum += c.share = c.score > most - 14 ? exponential(c.score - most) : 0;
-    for (Candidate& c : candidates_) c.share /= sum;
-    evidence_ = candidates_.empty() ? -20 : most + 0.6931471805599453 * logarithm(sum);
+    find_shares();
 }
 
-void FanModel::add(const StarShape& s, const Fan& fan) {
-    const Index d = s.star.faces(), m = fan.faces, from = fan.start, to = from + m;
-    const auto at = [&](Index i) { return i > d ? i - d : i; };
-    const auto spoke = [&](Index i) { return s.star.closed ? i % d : i; };
-    double area = 0, inner = 0, cotangent = 0, bend = 0;
-    area = to <= d ? s.area_to[to] - s.area_to[from] : s.total - s.area_to[from] + s.area_to[at(to)];
-    for (Index i = from + 1; i < to; ++i) {
-        inner += s.length[spoke(i)];
-        cotangent += s.cotangent[spoke(i)];
-        bend += s.bend[spoke(i)];
+/// Up to their sum, that is: the quotients are only wanted if one of the fans is.
+void FanModel::find_shares() {
+    const std::size_t count = candidates_.size();
+    double most = -1e9;
+    for (const double x : score_) most = std::max(most, x);
+    share_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const double power = exponential(score_[i] - most);
+        share_[i] = score_[i] > most - 14 ? power : 0;
     }
-    const double wings = (s.length[spoke(from)] + s.length[spoke(to)]) / 2;
-    const double outer = (s.cotangent[spoke(from)] + s.cotangent[spoke(to)]) / 2;
+    sum_ = 0;
+    for (const double x : share_) sum_ += x;
+    evidence_ = candidates_.empty() ? -20 : most + 0.6931471805599453 * logarithm(sum_);
+}
+
+void FanModel::add(const StarShape& s, const Fan& fan, const Inner& inner) {
+    const Index d = s.star.faces(), m = fan.faces, from = fan.start, past = from + m - d;
+    const Index to = past > 0 ? past : from + m;  // a closed star's last spoke is its first
+    const double area = past <= 0 ? s.area_to[to] - s.area_to[from] : s.total - s.area_to[from] + s.area_to[to];
+    const double wings = (s.length[from] + s.length[to]) / 2;
+    const double outer = (s.cotangent[from] + s.cotangent[to]) / 2;
     const double edges = std::max<Index>(m - 1, 1);
     const int kind = fan.kind == Fan::inside ? 0 : 1, size = std::min<int>(m, 9) + 10 * kind;  // below 20
-    const int v1 = clamp(s.valence[spoke(from)], 11), v2 = clamp(s.valence[spoke(to)], 11);
+    const int v1 = clamp(s.valence[from], 11), v2 = clamp(s.valence[to], 11);
     const int rest = clamp(d - m + 2, 15);
-    Candidate c;
+    Candidate& c = candidates_.emplace_back();
     c.fan = fan;
     const auto cot_bucket = [](double x) {
-        return clamp(static_cast<int>((std::min(std::max(x, -4.0), 4.0) + 2) * 4), 20);
+        x = (x + 2) * 4;
+        x = x > 0 ? x : 0;
+        return static_cast<int>(x < 20 ? x : 20);
     };
-    const std::array<int, features> value = {size * 16 + rest,
-                                             std::min(v1, v2) * 12 + std::max(v1, v2) + 144 * (m > 4) + 288 * kind,
-                                             size * buckets + (m > 1 ? ratio_bucket(inner / edges, wings) : 0),
-                                             size * buckets + ratio_bucket(area * d, s.total * m),
-                                             size * 21 + (m > 1 ? cot_bucket(cotangent / edges) : 0),
-                                             size * 21 + cot_bucket(outer),
-                                             size * buckets +
-                                                 (m > 1 ? clamp(octave_steps(bend / edges, 2) + 20, buckets - 1) : 0),
-                                             size * 16 + clamp(d, 15)};
+    const std::array<int, features> value = {
+        size * 16 + rest,
+        std::min(v1, v2) * 12 + std::max(v1, v2) + 144 * (m > 4) + 288 * kind,
+        size * buckets + (m > 1 ? ratio_bucket(inner.length / edges, wings) : 0),
+        size * buckets + ratio_bucket(area * d, s.total * m),
+        size * 21 + (m > 1 ? cot_bucket(inner.cotangent / edges) : 0),
+        size * 21 + cot_bucket(outer),
+        size * buckets + (m > 1 ? clamp(octave_steps(inner.bend / edges, 2) + 20, buckets - 1) : 0),
+        size * 16 + clamp(d, 15)};
+    double score = 0;
     for (int i = 0; i < features; ++i) {
         c.weight[i] = i * 1024 + value[i];
-        c.score += weights_[c.weight[i]];
+        score += weights_[c.weight[i]];
     }
-    candidates_.push_back(c);
+    score_.push_back(score);
 }
 
 Fan FanModel::code(BitCoder& coder, const StarShape& shape, const Fan& fan) {
@@ -121,6 +140,7 @@ Fan FanModel::code(BitCoder& coder, const StarShape& shape, const Fan& fan) {
             if (c.kind == fan.kind && c.faces == fan.faces && (c.kind != Fan::inside || c.start == fan.start))
                 wanted = i;
         }
+    for (double& share : share_) share /= sum_;
     const std::size_t chosen = code_rank(coder, wanted);
     if (chosen == candidates_.size()) return code_plainly(coder, shape, fan);
     learn(chosen);
@@ -130,21 +150,28 @@ Fan FanModel::code(BitCoder& coder, const StarShape& shape, const Fan& fan) {
 std::size_t FanModel::code_rank(BitCoder& coder, std::size_t wanted) {
     order_.resize(candidates_.size());
     std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](std::size_t a, std::size_t b) { return candidates_[a].share > candidates_[b].share; });
+    // Few ranks are looked at: the next is looked for when it is wanted. Of equal shares the first comes first.
+    const auto find = [&](std::size_t rank) {
+        for (std::size_t i = rank + 1; i < order_.size(); ++i) {
+            const double a = share_[order_[i]], b = share_[order_[rank]];
+            if (a > b || (a == b && order_[i] < order_[rank])) std::swap(order_[i], order_[rank]);
+        }
+    };
+    if (!order_.empty()) find(0);
     double left = 1;
     for (std::size_t rank = 0; rank < order_.size(); ++rank) {
         const Candidate& c = candidates_[order_[rank]];
-        const double chance = left > 1e-6 ? std::min(c.share / left, 1.0) : 0.5;
+        if (rank + 1 < order_.size()) find(rank + 1);
+        const double chance = left > 1e-6 ? std::min(share_[order_[rank]] / left, 1.0) : 0.5;
         const int share = clamp(static_cast<int>(chance * 63), 63), place = clamp(static_cast<int>(rank), 15);
         const int next = rank + 1 < order_.size() && left > 1e-6
-                             ? clamp(static_cast<int>(candidates_[order_[rank + 1]].share / left * 15), 15)
+                             ? clamp(static_cast<int>(share_[order_[rank + 1]] / left * 15), 15)
                              : 0;
         const int faces = std::min<int>(c.fan.faces, 15);
         if (is_it_.code(coder, order_[rank] == wanted,
                         {share, share * 16 + place, place * 16 + faces, next * 64 + share}, place))
             return order_[rank];
-        left -= c.share;
+        left -= share_[order_[rank]];
     }
     return candidates_.size();
 }
@@ -152,7 +179,7 @@ std::size_t FanModel::code_rank(BitCoder& coder, std::size_t wanted) {
 void FanModel::learn(std::size_t chosen) {
     for (std::size_t i = 0; i < candidates_.size(); ++i) {
         const Candidate& c = candidates_[i];
-        const double step = (i == chosen ? 1 : 0) - c.share;
+        const double step = (i == chosen ? 1 : 0) - share_[i];
         if (step > -1e-3 && step < 1e-3) continue;
         for (const int w : c.weight) {
             squares_[w] += step * step;

@@ -20,8 +20,8 @@ struct StarShape {
     std::vector<Vec3> normal;          ///< #faces
     double total = 0;                  ///< area
 
-    void take(const StarMesh& mesh, const Positions& positions, Index u, const std::vector<Index>& batch_of,
-              Index batch);
+    /// @param batch  the mark of faces that are taken
+    void take(const StarMesh& mesh, Index u, Index batch);
 };
 
 /// Which fan of a star is split off: all fans are ranked by a log-linear model over what makes one likely, learned
@@ -45,15 +45,24 @@ private:
     struct Candidate {
         Fan fan;
         std::array<int, features> weight;  ///< places in weights_
-        double score = 0, share = 0;
     };
 
-    void add(const StarShape& shape, const Fan& fan);
+    /// Sums over the edges inside a fan, from the first to the last: the order of sums is part of the format.
+    struct Inner {
+        double length = 0, cotangent = 0, bend = 0;
+        void add(const StarShape& shape, Index spoke) {
+            length += shape.length[spoke], cotangent += shape.cotangent[spoke], bend += shape.bend[spoke];
+        }
+    };
+    void add(const StarShape& shape, const Fan& fan, const Inner& inner);
+    void find_shares();
     Fan code_plainly(BitCoder& coder, const StarShape& shape, const Fan& fan);
     std::size_t code_rank(BitCoder& coder, std::size_t wanted);
     void learn(std::size_t chosen);
 
     std::vector<Candidate> candidates_;
+    std::vector<double> score_, share_;  ///< #candidates; shares of sum_ until code() divides them
+    double sum_ = 0;
     std::vector<std::size_t> order_;
     double evidence_ = 0;
     std::vector<double> weights_, squares_;

@@ -8,12 +8,31 @@
 namespace multires::stream {
 namespace {
 
-constexpr std::uint64_t most_elements = 0x7fffffff / 3;  ///< half-edges are 32-bit numbers
+constexpr std::uint64_t most_elements = 0x7fffffff / 4;  ///< half-edges are 32-bit numbers
 /// Vertices a byte can stand for: no split takes less than a 1024th of a byte.
 constexpr std::uint64_t most_per_byte = 1024;
 constexpr double bulge_steps = 64;
+constexpr int same_flag = 128;  ///< of an attribute's bytes a number: all vertices have the numbers behind its name
+
+void read_column(ByteReader& in, Header::Column& c) {
+    const int kind = in.byte();
+    c.width = in.byte();
+    const int storage = in.byte(), bytes = storage & ~same_flag;
+    require(kind <= static_cast<int>(AttributeKind::point) && c.width >= 1 && c.width <= 4 &&
+                (bytes == 1 || bytes == 4 || bytes == 8),
+            "the stream is damaged: an attribute's kind");
+    c.kind = static_cast<AttributeKind>(kind);
+    c.storage = static_cast<Storage>(bytes);
+    c.name = in.text();
+    if ((storage & same_flag) == 0) return;
+    for (int i = 0; i < c.width; ++i) c.same.push_back(static_cast<std::int64_t>(in.word(bytes)));
+}
 
 }  // namespace
+
+std::uint8_t Header::version() const {
+    return std::any_of(columns.begin(), columns.end(), [](const Column& c) { return !c.same.empty(); }) ? 2 : 1;
+}
 
 void Header::write(ByteWriter& out) const {
     out.number(bytes);
@@ -27,8 +46,9 @@ void Header::write(ByteWriter& out) const {
     for (const Column& c : columns) {
         out.byte(static_cast<std::uint8_t>(c.kind));
         out.byte(static_cast<std::uint8_t>(c.width));
-        out.byte(static_cast<std::uint8_t>(c.storage));
+        out.byte(static_cast<std::uint8_t>(static_cast<int>(c.storage) | (c.same.empty() ? 0 : same_flag)));
         out.text(c.name);
+        for (const std::int64_t x : c.same) out.word(static_cast<std::uint64_t>(x), width_of(c.storage));
     }
 }
 
@@ -47,18 +67,8 @@ void Header::read(ByteReader& in) {
     step = in.real();
     bulge = in.byte() / bulge_steps;
     require(origin.allFinite() && std::isfinite(step), "the stream is damaged: its box");
-    columns.resize(in.number_up_to(in.left()));
-    for (Column& c : columns) {
-        const int kind = in.byte();
-        c.width = in.byte();
-        const int storage = in.byte();
-        require(kind <= static_cast<int>(AttributeKind::point) && c.width >= 1 && c.width <= 4 &&
-                    (storage == 1 || storage == 4 || storage == 8),
-                "the stream is damaged: an attribute's kind");
-        c.kind = static_cast<AttributeKind>(kind);
-        c.storage = static_cast<Storage>(storage);
-        c.name = in.text();
-    }
+    columns.resize(in.number_up_to(most_attributes));
+    for (Column& c : columns) read_column(in, c);
 }
 
 Vec3 Header::place(const Cell& cell, int bits_less) const {

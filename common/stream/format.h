@@ -10,7 +10,10 @@
 /// The layout of the file, see docs/stream.md: a signature, and pieces of a kind, a size, a checksum and a payload.
 namespace multires::stream {
 
-constexpr std::uint8_t signature[8] = {0x89, 'M', 'R', 'M', '\r', '\n', 0x1a, 1};  ///< the last is the version
+/// Followed by a byte with the version.
+constexpr std::uint8_t signature[7] = {0x89, 'M', 'R', 'M', '\r', '\n', 0x1a};
+constexpr std::uint8_t newest_version = 2;
+constexpr std::size_t most_attributes = 256;
 
 enum class Piece : std::uint8_t {
     header = 'H',
@@ -32,6 +35,7 @@ struct Header {
         std::string name;
         int width = 1;
         Storage storage = Storage::full;
+        std::vector<std::int64_t> same;  ///< ordinals, if they are those of all vertices; else empty
     };
     std::uint64_t bytes = 0;  ///< of the whole file without signature and header
     Index vertices = 0, faces = 0, base_vertices = 0, base_faces = 0;
@@ -40,6 +44,9 @@ struct Header {
     double step = 1;   ///< mesh units of a cell
     double bulge = 0;  ///< how much of the ring's height prefixes add to a vertex, see Decoder::layer()
     std::vector<Column> columns;
+
+    /// The oldest one that has what the header says.
+    std::uint8_t version() const;
 
     void write(ByteWriter& out) const;
     /// @throws InputError  if the numbers cannot belong to a file of that size

@@ -60,16 +60,17 @@ PlaceModel::PlaceModel()
     : place_{Regression<points>({0.1, 0, 0.05, 0, 1.2, 0}), Regression<points>({0, 0, 0, 0, 0, 0})},
       height_{Regression<heights>({0.3, 0, 0.3, 0, 0}), Regression<heights>({0.3, 0, 0.3, 0, 0})} {}
 
-Cell PlaceModel::code(BitCoder& coder, const StarMesh& mesh, const Positions& p, Index v, Index parent,
+Cell PlaceModel::code(BitCoder& coder, const StarMesh& mesh, const Star& star, Index v, Index parent,
                       const Cell& cell) {
-    take(mesh, p, v, parent);
+    star_ = &star;
+    take(mesh, parent);
     Cell out = cell;
     out[axes_[0]] = code_along(coder, axes_[0], cell[axes_[0]]);
     rest_[axes_[0]] = out[axes_[0]] - nearest(predicted_[axes_[0]]);
     out[axes_[1]] = code_along(coder, axes_[1], cell[axes_[1]]);
     rest_[axes_[1]] = out[axes_[1]] - nearest(predicted_[axes_[1]]);
-    out[axes_[2]] = code_height(coder, p, parent, out);
-    const int open = star_.closed ? 0 : 1;
+    out[axes_[2]] = code_height(coder, mesh, parent, out);
+    const int open = star_->closed ? 0 : 1;
     const double over = 1 / scale_;
     std::array<double, points> f;
     for (int axis = 0; axis < 3; ++axis) {
@@ -85,19 +86,18 @@ Cell PlaceModel::code(BitCoder& coder, const StarMesh& mesh, const Positions& p,
     return out;
 }
 
-void PlaceModel::take(const StarMesh& mesh, const Positions& p, Index v, Index parent) {
-    mesh.star(v, star_);
-    const std::vector<Index>& ring = star_.spoke;
-    const Index d = star_.faces(), n = star_.closed ? d : d + 1;
+void PlaceModel::take(const StarMesh& mesh, Index parent) {
+    const std::vector<Index>& ring = star_->spoke;
+    const Index d = star_->faces(), n = star_->closed ? d : d + 1;
     centre_ = far_ = skew_ = Vec3(0, 0, 0);
-    for (Index i = 0; i < n; ++i) centre_ += p[ring[i]];
+    for (Index i = 0; i < n; ++i) centre_ += mesh.point(ring[i]);
     centre_ /= n;
-    if (!star_.closed) centre_ = (p[ring[0]] + p[ring[d]]) / 2;
+    if (!star_->closed) centre_ = (mesh.point(ring[0]) + mesh.point(ring[d])) / 2;
     up_ = Vec3(0, 0, 0);
-    for (Index i = 0; i < d; ++i) up_ += cross(p[ring[i]] - centre_, p[ring[i + 1]] - centre_);
+    for (Index i = 0; i < d; ++i) up_ += cross(mesh.point(ring[i]) - centre_, mesh.point(ring[i + 1]) - centre_);
     double sum = 0;
     for (Index i = 0; i < n; ++i) {
-        const Vec3 r = p[ring[i]] - centre_;
+        const Vec3 r = mesh.point(ring[i]) - centre_;
         sum += dot(r, r);
         far_ += Vec3(r[0] * r[0], r[1] * r[1], r[2] * r[2]);
         skew_ += Vec3(r[1] * r[2], r[2] * r[0], r[0] * r[1]);
@@ -110,8 +110,8 @@ void PlaceModel::take(const StarMesh& mesh, const Positions& p, Index v, Index p
     for (int i = 1; i < 3; ++i)
         if (std::abs(up_[i]) > std::abs(up_[top])) top = i;
     axes_ = {(top + 1) % 3, (top + 2) % 3, top};
-    find_normals(mesh, p, v);
-    find_points(p, parent);
+    find_normals(mesh);
+    find_points(mesh, parent);
     double along = 0, across = 0;
     int known = 0;
     for (Index i = 0; i < n; ++i) {
@@ -126,53 +126,47 @@ void PlaceModel::take(const StarMesh& mesh, const Positions& p, Index v, Index p
 }
 
 /// Normals at the ring's vertices, of the faces that are known, and the vertices across the link edges.
-void PlaceModel::find_normals(const StarMesh& mesh, const Positions& p, Index v) {
-    const Index d = star_.faces();
-    normal_.assign(d + 1, Vec3(0, 0, 0));
-    flap_.resize(d), has_flap_.assign(d, 0);
-    for (Index i = 0; i <= d; ++i) {
-        const Index r = star_.spoke[i];
-        if (!mesh.regular(r)) continue;
-        mesh.star(r, other_);
-        Vec3 sum(0, 0, 0);
-        for (Index j = 0; j < other_.faces(); ++j) {
-            const Index a = other_.spoke[j], b = other_.spoke[j + 1];
-            if (a != v && b != v) sum += cross(p[a] - p[r], p[b] - p[r]);
-        }
-        const double size = length(sum);
-        if (size > 0) normal_[i] = sum / size;
+void PlaceModel::find_normals(const StarMesh& mesh) {
+    const Star& star = *star_;
+    const Index d = star.faces(), n = star.closed ? d : d + 1;
+    normal_.resize(n), flap_.resize(d), has_flap_.resize(d);
+    for (Index i = 0; i < n; ++i) {
+        const Vec3& sum = mesh.normal(star.spoke[i]);
+        const double size = mesh.regular(star.spoke[i]) ? length(sum) : 0;
+        normal_[i] = size > 0 ? Vec3(sum / size) : Vec3(0, 0, 0);
     }
     for (Index i = 0; i < d; ++i) {
-        const Index across = mesh.twin(StarMesh::next(star_.leaving[i]));
+        const Index across = mesh.twin(StarMesh::next(star.leaving[i]));
+        has_flap_[i] = across >= 0;
         if (across < 0) continue;
-        flap_[i] = p[star_.spoke[i]] + p[star_.spoke[i + 1]] - p[mesh.origin(StarMesh::previous(across))];
-        has_flap_[i] = 1;
+        flap_[i] = mesh.point(star.spoke[i]) + mesh.point(star.spoke[i + 1]) -
+                   mesh.point(mesh.origin(StarMesh::previous(across)));
     }
 }
 
 /// The points that the place is combined of.
-void PlaceModel::find_points(const Positions& p, Index parent) {
-    const std::vector<Index>& ring = star_.spoke;
-    const Index d = star_.faces(), n = star_.closed ? d : d + 1;
+void PlaceModel::find_points(const StarMesh& mesh, Index parent) {
+    const std::vector<Index>& ring = star_->spoke;
+    const Index d = star_->faces(), n = star_->closed ? d : d + 1;
     Index at = 0;
     while (ring[at] != parent && at < d) ++at;
-    const Vec3 left = star_.closed || at > 0 ? p[ring[at > 0 ? at - 1 : d - 1]] : p[ring[at]];
-    const Vec3 right = at < d ? p[ring[at + 1]] : p[ring[at]];
+    const Vec3 left = star_->closed || at > 0 ? mesh.point(ring[at > 0 ? at - 1 : d - 1]) : mesh.point(ring[at]);
+    const Vec3 right = at < d ? mesh.point(ring[at + 1]) : mesh.point(ring[at]);
     Vec3 flaps(0, 0, 0), edges(0, 0, 0), area(0, 0, 0), opposite(0, 0, 0);
     double count = 0, perimeter = 0, whole = 0;
     for (Index i = 0; i < d; ++i) {
-        const Vec3 a = p[ring[i]], b = p[ring[i + 1]];
+        const Vec3 a = mesh.point(ring[i]), b = mesh.point(ring[i + 1]);
         if (has_flap_[i]) flaps += flap_[i], ++count;
-        const double l = length(a - b), t = length(cross(a - p[parent], b - p[parent]));
+        const double l = length(a - b), t = length(cross(a - mesh.point(parent), b - mesh.point(parent)));
         edges += (a + b) * (l / 2), perimeter += l;
-        area += (a + b + p[parent]) * (t / 3), whole += t;
+        area += (a + b + mesh.point(parent)) * (t / 3), whole += t;
     }
     double far = 0;
     for (Index i = 0; i < n; ++i) {
-        const double l = length(p[ring[i]] - p[parent]);
-        opposite += p[ring[i]] * l, far += l;
+        const double l = length(mesh.point(ring[i]) - mesh.point(parent));
+        opposite += mesh.point(ring[i]) * l, far += l;
     }
-    point_ = {p[parent],
+    point_ = {mesh.point(parent),
               (left + right) / 2,
               count > 0 ? Vec3(flaps / count) : centre_,
               perimeter > 0 ? Vec3(edges / perimeter) : centre_,
@@ -181,7 +175,7 @@ void PlaceModel::find_points(const Positions& p, Index parent) {
     std::array<double, points> f;
     for (int axis = 0; axis < 3; ++axis) {
         for (int i = 0; i < points; ++i) f[i] = point_[i][axis] - centre_[axis];
-        predicted_[axis] = centre_[axis] + place_[star_.closed ? 0 : 1].predict(f);
+        predicted_[axis] = centre_[axis] + place_[star_->closed ? 0 : 1].predict(f);
     }
 }
 
@@ -210,11 +204,11 @@ std::int32_t PlaceModel::code_along(BitCoder& coder, int axis, std::int32_t valu
     c.expected = clamp(static_cast<int>((expect_along_.predict(f) + 3) * 5), 63);
     c.spread = clamp(octave_steps(far + 0.05, 3) + 12, 63);
     c.memory = remembers_ ? clamp(static_cast<int>(memory_along_ * 3 + 8), 62) : 63;
-    c.kind = clamp(star_.faces() - 2, 7) + (second ? 8 : 0);
+    c.kind = clamp(star_->faces() - 2, 7) + (second ? 8 : 0);
     const int other = second ? clamp(octave_steps(std::abs(off_) / (std::sqrt(far_[axes_[0]]) + 0.05), 1) + 5, 7) : 0;
     c.other = other * 8 + clamp(octave_steps(scale_, 1), 7);
     c.lean = clamp(static_cast<int>((place - guess + 0.5) * 8), 7) + 8 * clamp(c.spread / 3 - 3, 7);
-    const std::int32_t out = sum(guess, along_[star_.closed ? 0 : 1].code(coder, value - guess, c));
+    const std::int32_t out = sum(guess, along_[star_->closed ? 0 : 1].code(coder, value - guess, c));
     expect_along_.learn(f, logarithm(std::abs(out - place) + 0.3)), expect_along_.end_sample();
     if (second)
         slope_.learn({lever / scale_}, (out - predicted_[axis]) / scale_), slope_.end_sample();
@@ -223,18 +217,18 @@ std::int32_t PlaceModel::code_along(BitCoder& coder, int axis, std::int32_t valu
     return out;
 }
 
-std::array<double, PlaceModel::heights> PlaceModel::height_features(const Positions& p, Index parent,
+std::array<double, PlaceModel::heights> PlaceModel::height_features(const StarMesh& mesh, Index parent,
                                                                     const Cell& cell) const {
     const int a = axes_[0], b = axes_[1], w = axes_[2];
-    const std::vector<Index>& ring = star_.spoke;
-    const Index n = star_.closed ? star_.faces() : star_.faces() + 1;
+    const std::vector<Index>& ring = star_->spoke;
+    const Index n = star_->closed ? star_->faces() : star_->faces() + 1;
     const auto plane = [&](const Vec3& at, const Vec3& up) {
         return at[w] - (up[a] * (cell[a] - at[a]) + up[b] * (cell[b] - at[b])) / up[w];
     };
     const double flat = plane(centre_, up_);
     double tangents = 0, tangents_weight = 0, points = 0, points_weight = 0;
     for (Index i = 0; i < n; ++i) {
-        const Vec3& r = p[ring[i]];
+        const Vec3& r = mesh.point(ring[i]);
         const double x = cell[a] - r[a], y = cell[b] - r[b];
         const double near = 1 / (x * x + y * y + 0.05 * scale_ * scale_ + 0.01);
         points += near * dot(r - centre_, up_) / up_[w], points_weight += near;
@@ -243,13 +237,13 @@ std::array<double, PlaceModel::heights> PlaceModel::height_features(const Positi
     }
     const double flaps = plane(point_[2], up_) - flat;
     return {tangents_weight > 0 ? tangents / tangents_weight - flat : 0, points / points_weight, flaps,
-            plane(p[parent], up_) - flat, plane(predicted_, up_) - flat};
+            plane(mesh.point(parent), up_) - flat, plane(predicted_, up_) - flat};
 }
 
-std::int32_t PlaceModel::code_height(BitCoder& coder, const Positions& p, Index parent, const Cell& cell) {
+std::int32_t PlaceModel::code_height(BitCoder& coder, const StarMesh& mesh, Index parent, const Cell& cell) {
     const int a = axes_[0], b = axes_[1], w = axes_[2];
-    const int open = star_.closed ? 0 : 1;
-    const std::array<double, heights> f = height_features(p, parent, cell);
+    const int open = star_->closed ? 0 : 1;
+    const std::array<double, heights> f = height_features(mesh, parent, cell);
     const double flat = centre_[w] - (up_[a] * (cell[a] - centre_[a]) + up_[b] * (cell[b] - centre_[b])) / up_[w];
     const double height = flat + height_[open].predict(f);
     const std::int32_t guess = nearest(height);
@@ -269,7 +263,7 @@ std::int32_t PlaceModel::code_height(BitCoder& coder, const Positions& p, Index 
                                      logarithm(std::abs(up_[w]))};
     c.expected = clamp(static_cast<int>((expect_across_.predict(g) + 3) * 6), 63);
     c.memory = remembers_ ? clamp(static_cast<int>(memory_across_ * 3 + 8), 62) : 63;
-    c.kind = clamp(star_.faces() - 2, 15);
+    c.kind = clamp(star_->faces() - 2, 15);
     c.other =
         clamp(octave_steps(off + 0.05, 1) + 5, 15) * 4 + clamp(static_cast<int>((std::abs(up_[w]) - 0.55) * 8), 3);
     c.lean = clamp(static_cast<int>((height - guess + 0.5) * 8), 7) + 8 * clamp(c.spread / 2 - 3, 7);

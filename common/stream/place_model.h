@@ -41,24 +41,23 @@ class PlaceModel {
 public:
     PlaceModel();
 
-    /// @param mesh   with the vertex v, all other vertices of which have cells
-    /// @param cells  #V; that of v is ignored
-    /// @param cell   where v is
+    /// @param mesh  with the vertex v and the points and normals of all others
+    /// @param star  that of v
+    /// @param cell  where v is
     /// @returns where v is
-    Cell code(BitCoder& coder, const StarMesh& mesh, const Positions& cells, Index v, Index parent, const Cell& cell);
+    Cell code(BitCoder& coder, const StarMesh& mesh, const Star& star, Index v, Index parent, const Cell& cell);
 
 private:
     static constexpr int points = 6, heights = 5;
-    struct Around;
 
-    void take(const StarMesh& mesh, const Positions& p, Index v, Index parent);
-    void find_normals(const StarMesh& mesh, const Positions& p, Index v);
-    void find_points(const Positions& p, Index parent);
+    void take(const StarMesh& mesh, Index parent);
+    void find_normals(const StarMesh& mesh);
+    void find_points(const StarMesh& mesh, Index parent);
     std::int32_t code_along(BitCoder& coder, int axis, std::int32_t value);
-    std::int32_t code_height(BitCoder& coder, const Positions& p, Index parent, const Cell& cell);
-    std::array<double, heights> height_features(const Positions& p, Index parent, const Cell& cell) const;
+    std::int32_t code_height(BitCoder& coder, const StarMesh& mesh, Index parent, const Cell& cell);
+    std::array<double, heights> height_features(const StarMesh& mesh, Index parent, const Cell& cell) const;
 
-    Star star_, other_;
+    const Star* star_ = nullptr;       ///< of the vertex that is being placed
     std::vector<Vec3> normal_, flap_;  ///< #spokes; flap: the vertex across the link edge, mirrored
     std::vector<std::uint8_t> has_flap_;
     Vec3 centre_, up_, predicted_, far_, skew_;

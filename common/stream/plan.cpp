@@ -135,14 +135,16 @@ void Plan::begin_batch(std::size_t batch) {
     first_row_.assign(batch_->coarse, -1);
     next_row_.assign(batch_->odd.rows(), -1);
     for (Index row = batch_->odd.rows() - 1; row >= 0; --row) {
-        const Index parent = parent_[batch_->coarse + row];
+        const Index parent = vertex_[parent_[batch_->coarse + row]];
         next_row_[row] = first_row_[parent];
         first_row_[parent] = row;
     }
+    ring_.clear();
+    for (const Index place : batch_->odd.neighbor) ring_.push_back(vertex_[place]);
 }
 
 std::optional<NewVertex> Plan::next(Index u, const Star& star) {
-    const Index row = first_row_[place_[u]];
+    const Index row = first_row_[u];
     if (row < 0) return std::nullopt;
     NewVertex out{find_fan(row, u, star), cells_[order_[batch_->coarse + row]]};
     for (std::int32_t& x : out.cell) x >>= bits_less;
@@ -150,8 +152,8 @@ std::optional<NewVertex> Plan::next(Index u, const Star& star) {
 }
 
 void Plan::done(Index u, Index v) {
-    const Index row = first_row_[place_[u]];
-    first_row_[place_[u]] = next_row_[row];
+    const Index row = first_row_[u];
+    first_row_[u] = next_row_[row];
     place_.push_back(batch_->coarse + row);
     vertex_[batch_->coarse + row] = v;
 }
@@ -165,10 +167,10 @@ Cell Plan::cell(Index v) const {
 Fan Plan::find_fan(Index row, Index parent, const Star& star) const {
     const Rings& odd = batch_->odd;
     const Index k = odd.size(row), d = star.faces(), m = k - 2;
-    const Index* const ring = odd.begin(row);
+    const Index* const ring = &ring_[odd.offset[row]];
     Index t = 0;
-    while (vertex_[ring[t]] != parent) ++t;
-    const auto vertex = [&](Index i) { return vertex_[ring[(i + k) % k]]; };
+    while (ring[t] != parent) ++t;
+    const auto vertex = [&](Index i) { return ring[i < 0 ? i + k : i < k ? i : i - k]; };
     if (odd.kind[row] == RingKind::open) {
         if (star.spoke[0] == vertex(t == 0 ? k - 1 : 0)) return {Fan::first, 0, m};
         return {Fan::last, d - m, m};

@@ -50,7 +50,8 @@ private:
     std::vector<double> error_;
     std::vector<Index> place_, vertex_;  ///< of vertices of the stream; and back, -1: not yet there
     const Batch* batch_ = nullptr;
-    std::vector<Index> first_row_, next_row_;  ///< rows of each place's children in the batch; -1: none
+    std::vector<Index> first_row_, next_row_;  ///< rows of each vertex's children in the batch; -1: none
+    std::vector<Index> ring_;                  ///< the batch's rings, in vertices of the stream
 };
 
 }  // namespace multires::stream

@@ -4,6 +4,7 @@
 #include "stream/geometry.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace multires::stream {
 namespace {
@@ -30,33 +31,42 @@ void add_bulge(const StarMesh& mesh, const Positions& from, double share, Positi
 
 Progress::Progress(std::vector<Cell> cells, const Faces& faces, int bits, Index most)
     : mesh_(static_cast<Index>(cells.size()), faces), cells_(std::move(cells)), parent_(cells_.size(), -1), bits_(bits),
-      most_(most), batch_of_face_(mesh_.faces(), -1), is_split_({20 * 3, 64 * 3, 16 * 16, 32 * 20, 16 * 16}, 3),
-      finer_({64, 64, 64}, 1) {
-    points_.resize(cells_.size());
-    for (Index v = 0; v < mesh_.vertices(); ++v) set_cell(v, cells_[v]);
+      most_(most), is_split_({20 * 3, 64 * 3, 16 * 16, 32 * 20, 16 * 16}, 3), finer_({64, 64, 64}, 1) {
+    mesh_.set_points(points());
 }
 
-void Progress::set_cell(Index v, const Cell& cell) {
-    cells_[v] = cell;
-    points_[v] = Vec3(cell[0], cell[1], cell[2]);
+Positions Progress::points() const {
+    Positions out;
+    out.reserve(cells_.size());
+    for (const Cell& c : cells_) out.emplace_back(c[0], c[1], c[2]);
+    return out;
 }
 
 void Progress::begin_batch() {
     ++batch_;
     at_ = 0;
-    order_.clear();
+    std::vector<std::size_t> begin;  // of each valence, the highest first
+    for (Index v = 0; v < mesh_.vertices(); ++v) {
+        if (!mesh_.regular(v)) continue;
+        const auto valence = static_cast<std::size_t>(mesh_.valence(v));
+        if (begin.size() <= valence) begin.resize(valence + 1, 0);
+        ++begin[valence];
+    }
+    std::size_t count = 0;
+    for (std::size_t k = begin.size(); k-- > 0;) count += std::exchange(begin[k], count);
+    order_.resize(count);
     for (Index v = 0; v < mesh_.vertices(); ++v)
-        if (mesh_.regular(v)) order_.push_back(v);
-    std::stable_sort(order_.begin(), order_.end(),
-                     [&](Index a, Index b) { return mesh_.valence(a) > mesh_.valence(b); });
+        if (mesh_.regular(v)) order_[begin[mesh_.valence(v)]++] = v;
     require(!order_.empty(), "the stream is damaged: nothing can be split");
 }
 
 void Progress::visit(BitCoder& coder, Guide* guide) {
     if (at_ == order_.size()) begin_batch();
+    constexpr std::size_t ahead = 8;
+    if (at_ % ahead == 0) mesh_.prefetch(&order_[at_], static_cast<int>(std::min(ahead, order_.size() - at_)));
     const Index u = order_[at_++];
     for (int children = 0;; ++children) {
-        shape_.take(mesh_, points_, u, batch_of_face_, batch_);
+        shape_.take(mesh_, u, batch_);
         fans_.rank(shape_);
         if (fans_.empty()) break;
         std::optional<NewVertex> wanted;
@@ -93,24 +103,24 @@ void Progress::split(BitCoder& coder, Index u, const NewVertex& wanted) {
     mesh_.split(u, shape_.star, fan);
     const Index v = mesh_.vertices() - 1;
     cells_.emplace_back();
-    points_.emplace_back(0, 0, 0);
     parent_.push_back(u);
-    const Cell cell = places_.code(coder, mesh_, points_, v, u, wanted.cell);
+    mesh_.star(v, star_);
+    const Cell cell = places_.code(coder, mesh_, star_, v, u, wanted.cell);
     for (const std::int32_t x : cell)
         require(x >= 0 && x < std::int32_t{1} << bits_, "the stream is damaged: a place outside the box");
-    set_cell(v, cell);
-    batch_of_face_.resize(mesh_.faces(), -1);
-    mesh_.star(v, star_);
-    for (const Index h : star_.leaving) batch_of_face_[h / 3] = batch_;
+    cells_.back() = cell;
+    mesh_.place(v, star_, Vec3(cell[0], cell[1], cell[2]));
+    for (const Index h : star_.leaving) mesh_.set_mark(StarMesh::face_of(h), batch_);
 }
 
 void Progress::refine(BitCoder& coder, const Guide* guide) {
-    Positions smooth = points_;
-    add_bulge(mesh_, points_, -0.5, smooth);
+    const Positions before = points();
+    Positions smooth = before;
+    add_bulge(mesh_, before, -0.5, smooth);
     for (Index v = 0; v < mesh_.vertices(); ++v) {
         Cell finer = guide ? guide->cell(v) : Cell{};
         for (int axis = 0; axis < 3; ++axis) {
-            const double off = smooth[v][axis] - points_[v][axis];
+            const double off = smooth[v][axis] - before[v][axis];
             const int lean = clamp(static_cast<int>((std::min(std::max(off, -1.9), 1.9) + 2) * 16), 63);
             const bool up = finer_.code(coder, finer[axis] & 1, {lean, 32 + axis, lean / 4}, 0);
             finer[axis] = cells_[v][axis] * 2 + (up ? 1 : 0);
@@ -118,7 +128,7 @@ void Progress::refine(BitCoder& coder, const Guide* guide) {
         cells_[v] = finer;
     }
     ++bits_;
-    for (Index v = 0; v < mesh_.vertices(); ++v) set_cell(v, cells_[v]);
+    mesh_.set_points(points());
 }
 
 }  // namespace multires::stream

@@ -66,19 +66,17 @@ private:
     void begin_batch();
     bool is_split(BitCoder& coder, bool yes, int children);
     void split(BitCoder& coder, Index u, const NewVertex& wanted);
-    void set_cell(Index v, const Cell& cell);
+    Positions points() const;
 
     StarMesh mesh_;
     std::vector<Cell> cells_;
-    Positions points_;  ///< the cells once more
     std::vector<Index> parent_;
     int bits_;
     Index most_;
 
     std::vector<Index> order_;  ///< of the batch
     std::size_t at_ = 0;
-    Index batch_ = 0;
-    std::vector<Index> batch_of_face_;  ///< #F: the last batch in which the face was around a new vertex
+    Index batch_ = 0;  ///< counted from 1; the mark of faces around vertices that are new in it
     double density_ = 0.3, mean_area_ = 0;
     StarShape shape_;
     Star star_;

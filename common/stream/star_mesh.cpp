@@ -1,97 +1,120 @@
 #include "stream/star_mesh.h"
 
+#include "stream/geometry.h"
+
 #include <algorithm>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 namespace multires::stream {
 
 StarMesh::StarMesh(Index vertices, const Faces& faces) {
-    origin_.reserve(3 * faces.size());
-    for (const Face& f : faces) origin_.insert(origin_.end(), f.begin(), f.end());
-    corner_.assign(vertices, -1);
-    valence_.assign(vertices, 0);
+    half_.resize(faces.size());
+    for (std::size_t f = 0; f < faces.size(); ++f) half_[f].origin = faces[f];
+    vertex_.resize(vertices);
     find_twins();
     find_corners();
 }
 
 void StarMesh::find_twins() {
     struct Edge {
-        std::uint64_t key;
-        Index half;
+        Index end, half;
     };
-    std::vector<Edge> edges;
-    edges.reserve(origin_.size());
-    for (Index h = 0; h < static_cast<Index>(origin_.size()); ++h) {
-        if (repeats_an_index(face(h / 3))) continue;
-        const auto a = static_cast<std::uint64_t>(origin(h)), b = static_cast<std::uint64_t>(target(h));
-        edges.push_back({std::min(a, b) << 32 | std::max(a, b), h});
-    }
-    std::sort(edges.begin(), edges.end(),
-              [](const Edge& a, const Edge& b) { return a.key != b.key ? a.key < b.key : a.half < b.half; });
-    twin_.assign(origin_.size(), -1);
-    for (std::size_t i = 0; i < edges.size();) {
-        std::size_t end = i;
-        while (end < edges.size() && edges[end].key == edges[i].key) ++end;
-        if (end - i == 2 && origin(edges[i].half) != origin(edges[i + 1].half)) pair(edges[i].half, edges[i + 1].half);
-        i = end;
+    // The half-edges of a vertex are those of edges whose other end has a higher index; sorted by that end.
+    std::vector<std::size_t> begin(vertex_.size() + 1, 0);
+    const auto for_edges = [&](const auto& take) {
+        for (Index f = 0; f < faces(); ++f) {
+            if (repeats_an_index(face(f))) continue;
+            for (Index h = 4 * f; h < 4 * f + 3; ++h)
+                take(std::min(origin(h), target(h)), std::max(origin(h), target(h)), h);
+        }
+    };
+    for_edges([&](Index low, Index, Index) { ++begin[low + 1]; });
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<Edge> edges(begin.back());
+    std::vector<std::size_t> at(begin.begin(), begin.end() - 1);
+    for_edges([&](Index low, Index high, Index h) { edges[at[low]++] = {high, h}; });
+    for (std::size_t v = 0; v < vertex_.size(); ++v) {
+        std::sort(edges.begin() + begin[v], edges.begin() + begin[v + 1],
+                  [](const Edge& a, const Edge& b) { return a.end != b.end ? a.end < b.end : a.half < b.half; });
+        for (std::size_t i = begin[v]; i < begin[v + 1];) {
+            std::size_t end = i;
+            while (end < begin[v + 1] && edges[end].end == edges[i].end) ++end;
+            if (end - i == 2 && origin(edges[i].half) != origin(edges[i + 1].half))
+                pair(edges[i].half, edges[i + 1].half);
+            i = end;
+        }
     }
 }
 
 void StarMesh::find_corners() {
-    std::vector<Index> some(corner_.size(), -1);
-    std::vector<std::uint8_t> degenerate(corner_.size(), 0);
-    for (Index h = 0; h < static_cast<Index>(origin_.size()); ++h) {
-        ++valence_[origin(h)];
-        some[origin(h)] = h;
-        if (repeats_an_index(face(h / 3))) degenerate[origin(h)] = 1;
-    }
+    std::vector<Index> some(vertex_.size(), -1);
+    std::vector<std::uint8_t> degenerate(vertex_.size(), 0);
+    for (Index f = 0; f < faces(); ++f)
+        for (int k = 0; k < 3; ++k) {
+            const Index v = face(f)[k];
+            ++vertex_[v].valence;
+            some[v] = 4 * f + k;
+            if (repeats_an_index(face(f))) degenerate[v] = 1;
+        }
     for (Index v = 0; v < vertices(); ++v)
-        if (some[v] >= 0 && (degenerate[v] || !finds_corner(v, some[v]))) corner_[v] = -1;
+        if (some[v] >= 0 && (degenerate[v] || !finds_corner(v, some[v]))) vertex_[v].corner = -1;
 }
 
 bool StarMesh::finds_corner(Index v, Index some) {
     Index first = some;
-    while (twin_[first] >= 0) {  // clockwise to the boundary, or once around
-        first = next(twin_[first]);
+    while (twin(first) >= 0) {  // clockwise to the boundary, or once around
+        first = next(twin(first));
         if (first == some) break;
     }
-    const bool closed = twin_[first] >= 0;
+    const bool closed = twin(first) >= 0;
     Index count = 0;
     for (Index h = first;;) {
         ++count;
-        h = twin_[previous(h)];
+        h = twin(previous(h));
         if (h < 0 || h == first) break;
     }
-    corner_[v] = first;
-    return count == valence_[v] && count >= (closed ? 3 : 1);
+    vertex_[v].corner = first;
+    return count == vertex_[v].valence && count >= (closed ? 3 : 1);
 }
 
 void StarMesh::pair(Index a, Index b) {
-    if (a >= 0) twin_[a] = b;
-    if (b >= 0) twin_[b] = a;
+    if (a >= 0) set_twin(a, b);
+    if (b >= 0) set_twin(b, a);
 }
 
 Index StarMesh::add_face(Index a, Index b, Index c) {
-    origin_.insert(origin_.end(), {a, b, c});
-    twin_.insert(twin_.end(), {-1, -1, -1});
-    return static_cast<Index>(twin_.size()) - 3;
+    half_.emplace_back().origin = {a, b, c};
+    return 4 * (faces() - 1);
 }
 
 void StarMesh::star(Index u, Star& star) const {
-    star.leaving.clear();
-    star.spoke.clear();
-    const Index first = corner_[u];
-    star.closed = twin_[first] >= 0;
-    for (Index h = first;;) {
-        star.leaving.push_back(h);
-        star.spoke.push_back(target(h));
+    const Index first = vertex_[u].corner, d = vertex_[u].valence;
+    star.leaving.resize(d);
+    star.spoke.resize(d + 1);
+    star.closed = twin(first) >= 0;
+    Index h = first;
+    for (Index i = 0; i < d; ++i) {
+        star.leaving[i] = h;
+        star.spoke[i] = target(h);
         const Index back = previous(h);
-        h = twin_[back];
-        if (h >= 0 && h != first) continue;
-        star.spoke.push_back(origin(back));
-        return;
+        star.spoke[i + 1] = origin(back);
+        h = twin(back);
     }
+}
+
+void StarMesh::prefetch(const Index* vertices, int count) const {
+    constexpr int most = 8, steps = 7;  // of the chains that are followed at a time; most stars have six faces
+    std::array<Index, most> h{};
+    count = std::min(count, most);
+    for (int k = 0; k < count; ++k) h[k] = vertex_[vertices[k]].corner;
+    for (int step = 0; step < steps; ++step)
+        for (int k = 0; k < count; ++k) {
+            if (h[k] < 0) continue;
+            __builtin_prefetch(&vertex_[target(h[k])]);
+            h[k] = twin(previous(h[k]));
+        }
 }
 
 bool StarMesh::allows(const Star& star, const Fan& fan) {
@@ -103,24 +126,50 @@ bool StarMesh::allows(const Star& star, const Fan& fan) {
 
 void StarMesh::split(Index u, const Star& star, const Fan& fan) {
     const Index v = vertices();
-    corner_.push_back(0);
-    valence_.push_back(0);
+    vertex_.emplace_back().corner = 0;
     const Index d = star.faces(), m = fan.faces;
     const Index from = fan.kind == Fan::inside ? fan.start : fan.kind == Fan::first ? 0 : d - m;
+    add_normals(u, star, from, m, -1);
     for (Index i = from; i < from + m; ++i) {
         const Index h = star.leaving[i % d];
-        origin_[h] = v;
+        set_origin(h, v);
     }
     if (fan.kind == Fan::inside) split_inside(u, star, fan, v);
     if (fan.kind == Fan::first) split_first(u, star, m, v);
     if (fan.kind == Fan::last) split_last(u, star, m, v);
 }
 
+void StarMesh::place(Index v, const Star& star, const Vec3& point) {
+    vertex_[v].point = point;
+    add_normals(v, star, 0, star.faces(), 1);
+}
+
+/// Adds faces of a star to the normals around them.
+void StarMesh::add_normals(Index u, const Star& star, Index from, Index count, double sign) {
+    const Index d = star.faces();
+    const Vec3& centre = vertex_[u].point;
+    for (Index k = from; k < from + count; ++k) {
+        const Index i = k < d ? k : k - d;
+        Vertex &a = vertex_[star.spoke[i]], &b = vertex_[star.spoke[i + 1]];
+        const Vec3 n = sign * cross(a.point - centre, b.point - centre);
+        vertex_[u].normal += n, a.normal += n, b.normal += n;
+    }
+}
+
+void StarMesh::set_points(const Positions& points) {
+    for (Index v = 0; v < vertices(); ++v) vertex_[v].point = points[v], vertex_[v].normal = Vec3(0, 0, 0);
+    for (Index f = 0; f < faces(); ++f) {
+        const auto [a, b, c] = face(f);
+        const Vec3 n = cross(point(b) - point(a), point(c) - point(a));
+        for (const Index v : {a, b, c}) vertex_[v].normal += n;
+    }
+}
+
 void StarMesh::split_inside(Index u, const Star& star, const Fan& fan, Index v) {
     const Index d = star.faces(), m = fan.faces;
     const Index begin = star.leaving[fan.start], end = previous(star.leaving[(fan.start + m - 1) % d]);
     const Index left = star.spoke[fan.start], right = star.spoke[(fan.start + m - 1) % d + 1];
-    const Index before = twin_[begin], after = twin_[end];
+    const Index before = twin(begin), after = twin(end);
     const Index a = add_face(u, left, v), b = add_face(u, v, right);
     pair(a, before);
     pair(a + 1, begin);
@@ -128,30 +177,30 @@ void StarMesh::split_inside(Index u, const Star& star, const Fan& fan, Index v) 
     pair(b + 1, end);
     pair(b + 2, after);
     for (Index i = 0; i < m; ++i)
-        if (corner_[u] == star.leaving[(fan.start + i) % d]) corner_[u] = a;
-    corner_[v] = begin;
+        if (vertex_[u].corner == star.leaving[(fan.start + i) % d]) vertex_[u].corner = a;
+    vertex_[v].corner = begin;
     if (after < 0) set_corner(right, b + 2);
-    valence_[u] += 2 - m;
-    valence_[v] = m + 2;
-    ++valence_[left], ++valence_[right];
+    vertex_[u].valence += 2 - m;
+    vertex_[v].valence = m + 2;
+    ++vertex_[left].valence, ++vertex_[right].valence;
 }
 
 void StarMesh::split_first(Index u, const Star& star, Index m, Index v) {
     const Index right = star.spoke[m], a = add_face(u, v, right);
     if (m == 0) {
         pair(a + 2, star.leaving[0]);
-        corner_[v] = a + 1;
+        vertex_[v].corner = a + 1;
     } else {
-        const Index end = previous(star.leaving[m - 1]), after = twin_[end];
+        const Index end = previous(star.leaving[m - 1]), after = twin(end);
         pair(a + 1, end);
         pair(a + 2, after);
         if (after < 0) set_corner(right, a + 2);
-        corner_[v] = star.leaving[0];
+        vertex_[v].corner = star.leaving[0];
     }
-    corner_[u] = a;
-    valence_[u] += 1 - m;
-    valence_[v] = m + 1;
-    ++valence_[right];
+    vertex_[u].corner = a;
+    vertex_[u].valence += 1 - m;
+    vertex_[v].valence = m + 1;
+    ++vertex_[right].valence;
 }
 
 void StarMesh::split_last(Index u, const Star& star, Index m, Index v) {
@@ -160,16 +209,16 @@ void StarMesh::split_last(Index u, const Star& star, Index m, Index v) {
         pair(a, previous(star.leaving[d - 1]));
         set_corner(left, a + 1);
     } else {
-        const Index begin = star.leaving[d - m], before = twin_[begin];
+        const Index begin = star.leaving[d - m], before = twin(begin);
         pair(a + 1, begin);
         pair(a, before);
-        twin_[a] = before;
+        set_twin(a, before);
     }
-    if (m == d) corner_[u] = a;
-    corner_[v] = a + 2;
-    valence_[u] += 1 - m;
-    valence_[v] = m + 1;
-    ++valence_[left];
+    if (m == d) vertex_[u].corner = a;
+    vertex_[v].corner = a + 2;
+    vertex_[u].valence += 1 - m;
+    vertex_[v].valence = m + 1;
+    ++vertex_[left].valence;
 }
 
 }  // namespace multires::stream

@@ -2,6 +2,7 @@
 
 #include "mesh/mesh.h"
 
+#include <array>
 #include <vector>
 
 namespace multires::stream {
@@ -25,7 +26,9 @@ struct Star {
     Index faces() const { return static_cast<Index>(leaving.size()); }
 };
 
-/// A mesh that grows by vertex splits. Half-edge 3f + k leads from corner k of face f to the next.
+/// A mesh that grows by vertex splits, with points, normals, and a mark for each face. Half-edge 4f + k leads from
+/// corner k of face f to the next. What is known of a face, and of a vertex, is in one line of the cache: going around
+/// stars is where the time goes.
 ///
 /// Only regular vertices are split: those whose faces form one fan or disk of one orientation, of at least three faces
 /// if it is closed, and of no face with a repeated index. A split leaves all other vertices what they are.
@@ -35,25 +38,43 @@ public:
     /// @param faces  indices below `vertices`; anything goes: whatever is not manifold is not regular
     StarMesh(Index vertices, const Faces& faces);
 
-    Index vertices() const { return static_cast<Index>(corner_.size()); }
-    Index faces() const { return static_cast<Index>(origin_.size()) / 3; }
-    Face face(Index f) const { return {origin_[3 * f], origin_[3 * f + 1], origin_[3 * f + 2]}; }
-    bool regular(Index v) const { return corner_[v] >= 0; }
-    Index valence(Index v) const { return valence_[v]; }  ///< in faces
+    Index vertices() const { return static_cast<Index>(vertex_.size()); }
+    Index faces() const { return static_cast<Index>(half_.size()); }
+    Face face(Index f) const { return half_[f].origin; }
+    static Index face_of(Index h) { return h >> 2; }
+    bool regular(Index v) const { return vertex_[v].corner >= 0; }
+    Index valence(Index v) const { return vertex_[v].valence; }  ///< in faces
+    const Vec3& point(Index v) const { return vertex_[v].point; }
+    /// Sum of the normals, twice the areas long, of the faces around. Points of whole numbers make sums that are exact:
+    /// what is added and taken away again leaves no trace.
+    const Vec3& normal(Index v) const { return vertex_[v].normal; }
+    /// @param points  #V
+    void set_points(const Positions& points);
+    Index mark(Index f) const { return half_[f].mark; }  ///< 0 for new faces
+    void set_mark(Index f, Index mark) { half_[f].mark = mark; }
 
-    Index origin(Index h) const { return origin_[h]; }
+    Index origin(Index h) const { return half_[h >> 2].origin[h & 3]; }
     Index target(Index h) const { return origin(next(h)); }
-    Index twin(Index h) const { return twin_[h]; }  ///< -1 at a boundary or where more than two faces meet
-    static Index next(Index h) { return h % 3 == 2 ? h - 2 : h + 1; }
-    static Index previous(Index h) { return h % 3 == 0 ? h + 2 : h - 1; }
+    Index twin(Index h) const {
+        return half_[h >> 2].twin[h & 3];
+    }  ///< -1 at a boundary or where more than two faces meet
+    static Index next(Index h) { return (h & 3) == 2 ? h - 2 : h + 1; }
+    static Index previous(Index h) { return (h & 3) == 0 ? h + 2 : h - 1; }
 
     /// The star of a regular vertex.
     void star(Index u, Star& star) const;
+
+    /// Brings the stars of some regular vertices into the cache.
+    void prefetch(const Index* vertices, int count) const;
 
     /// Splits a new vertex, vertices(), off u.
     /// @param star  that of u, regular
     /// @param fan   a fan of it: see allows()
     void split(Index u, const Star& star, const Fan& fan);
+
+    /// Tells the point of the vertex that was split off last; until then the faces around it are in no normal.
+    /// @param star  that of v
+    void place(Index v, const Star& star, const Vec3& point);
 
     /// True if there is such a fan.
     static bool allows(const Star& star, const Fan& fan);
@@ -62,19 +83,30 @@ private:
     void find_twins();
     void find_corners();
     bool finds_corner(Index v, Index some);
+    struct alignas(32) HalfEdges {
+        std::array<Index, 3> origin{};
+        std::array<Index, 3> twin{-1, -1, -1};
+        Index mark = 0;
+    };
+    struct alignas(64) Vertex {
+        Vec3 point{0, 0, 0}, normal{0, 0, 0};
+        Index corner = -1;  ///< a half-edge leaving it, the first of an open star; -1: not regular
+        Index valence = 0;
+    };
+    void set_origin(Index h, Index v) { half_[h >> 2].origin[h & 3] = v; }
+    void set_twin(Index h, Index twin) { half_[h >> 2].twin[h & 3] = twin; }
+    void add_normals(Index u, const Star& star, Index from, Index count, double sign);
     void pair(Index a, Index b);
     Index add_face(Index a, Index b, Index c);
     void split_inside(Index u, const Star& star, const Fan& fan, Index v);
     void split_first(Index u, const Star& star, Index faces, Index v);
     void split_last(Index u, const Star& star, Index faces, Index v);
     void set_corner(Index v, Index h) {
-        if (corner_[v] >= 0) corner_[v] = h;
+        if (vertex_[v].corner >= 0) vertex_[v].corner = h;
     }
 
-    std::vector<Index> origin_;   ///< #F by 3: the faces
-    std::vector<Index> twin_;     ///< #F by 3
-    std::vector<Index> corner_;   ///< #V: a half-edge leaving the vertex, the first of an open star; -1: not regular
-    std::vector<Index> valence_;  ///< #V
+    std::vector<HalfEdges> half_;  ///< #F
+    std::vector<Vertex> vertex_;   ///< #V
 };
 
 }  // namespace multires::stream

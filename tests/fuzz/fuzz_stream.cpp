@@ -14,7 +14,7 @@ namespace {
 
 /// Writes the right checksum into every piece whose size makes sense.
 void mend(std::vector<std::uint8_t>& bytes) {
-    std::size_t at = sizeof stream::signature;
+    std::size_t at = sizeof stream::signature + 1;  // behind the version
     while (at + 6 <= bytes.size()) {
         const auto piece = static_cast<stream::Piece>(bytes[at++]);
         std::uint64_t size = 0;

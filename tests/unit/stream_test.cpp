@@ -230,6 +230,58 @@ Layer kept_layer() {
     return with_attributes(mesh);
 }
 
+/// White, of quality 0 or NaN: the same at every vertex, but for what the first has if it differs.
+Layer uniform_layer(const Mesh& mesh, double quality, double first_quality) {
+    Layer layer = layer_of(mesh);
+    Attribute color{AttributeKind::color, "", 4, {}}, plain{AttributeKind::quality, "", 1, {}};
+    Attribute flow{AttributeKind::point, "flow", 3, {}};
+    for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+        color.values.insert(color.values.end(), {255, 254, 0, 255});
+        plain.values.push_back(v == 0 ? first_quality : quality);
+        flow.values.insert(flow.values.end(), {1.0 / 3, -0.0, 1e300});
+    }
+    layer.attributes = {color, plain, flow};
+    return layer;
+}
+
+Layer kept_layer_of_one_color() {
+    Layer layer = kept_layer();
+    layer.attributes[0] = uniform_layer(layer.mesh, 0, 0).attributes[0];
+    return layer;
+}
+
+TEST(Stream, AttributesThatAreTheSameAtEveryVertexAreStoredOnce) {
+    EncodeOptions options;
+    options.exact = options.keep_order = true;
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    const Mesh mesh = shapes::torus(20, 20);
+    const std::size_t bare = encode(layer_of(mesh), options).size();
+    for (const double first : {0.0, -0.0, none}) {
+        const Layer layer = uniform_layer(mesh, first, first);
+        const Bytes bytes = encode(layer, options);
+        EXPECT_LE(bytes.size(), bare + 60);  // their numbers have 4 + 1 + 24 bytes
+        expect_same(decode(bytes, {}), layer);
+        stream::Limits few;
+        few.vertices = 50;
+        const Layer prefix = decode(bytes, few);
+        ASSERT_LT(prefix.mesh.positions.size(), 60U);
+        for (const std::size_t i : {std::size_t{0}, prefix.mesh.positions.size() - 1})
+            EXPECT_EQ(prefix.attributes[0].values[4 * i + 1], 254);
+    }
+    for (const double first : {-0.0, none, 1.0}) {
+        const Layer layer = uniform_layer(mesh, 0, first);
+        expect_same(decode(encode(layer, options)), layer);
+    }
+}
+
+TEST(Stream, AttributesWithoutEndAreRefused) {
+    Layer layer = layer_of(shapes::torus(6, 6));
+    layer.attributes.assign(256, {AttributeKind::scalar, "s", 1, std::vector<double>(36, 1.5)});
+    EXPECT_EQ(decode(encode(layer, {})).attributes.size(), 256U);
+    layer.attributes.push_back(layer.attributes[0]);
+    EXPECT_THROW(encode(layer, {}), InputError);
+}
+
 Bytes kept_file(const std::string& name) {
     std::ifstream in(std::string(MULTIRES_TEST_DATA) + "/" + name, std::ios::binary);
     return Bytes(std::istreambuf_iterator<char>(in), {});
@@ -241,6 +293,11 @@ TEST(Stream, TheFileKeptOfVersion1DecodesAsEver) {
     const Layer rounded = decode(kept_file("stream_version_1.mrm"));
     EXPECT_EQ(rounded.mesh.faces.size(), kept_layer().mesh.faces.size());
     EXPECT_EQ(rounded.mesh.positions.size(), 27U);
+}
+
+/// The first version that stores uniform attributes once.
+TEST(Stream, TheFileKeptOfVersion2DecodesAsEver) {
+    expect_same(decode(kept_file("stream_version_2_exact.mrm")), kept_layer_of_one_color());
 }
 
 /// Sizes must not creep up unnoticed; small meshes pay for what the models have to learn.
