@@ -7,6 +7,35 @@
 #include <string>
 
 namespace multires::stream {
+namespace {
+
+/// A permutation of `count` numbers, as differences to earlier ones.
+/// @param like  which one each is like
+template <class Like>
+std::vector<Index> unpacked_order(ByteReader& in, std::size_t count, const Like& like) {
+    const std::vector<std::int64_t> numbers = unpacked(in, count, 4);
+    std::vector<Index> out(count);
+    std::vector<std::uint8_t> seen(count, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::int64_t x = numbers[i] + (i ? out[like(i)] : 0);
+        require(x >= 0 && x < static_cast<std::int64_t>(count) && !seen[x], "the stream is damaged: an order is none");
+        seen[x] = 1;
+        out[i] = static_cast<Index>(x);
+    }
+    return out;
+}
+
+std::vector<std::uint8_t> unpacked_turns(ByteReader& in, std::size_t count) {
+    std::vector<std::uint8_t> out(count);
+    const std::vector<std::int64_t> turns = unpacked(in, count, 1);
+    for (std::size_t i = 0; i < count; ++i) {
+        require(turns[i] >= 0 && turns[i] < 3, "the stream is damaged: an order is none");
+        out[i] = static_cast<std::uint8_t>(turns[i]);
+    }
+    return out;
+}
+
+}  // namespace
 
 void Decoder::feed(const std::uint8_t* data, std::size_t size) {
     if (satisfied_ || finished()) return;
@@ -111,7 +140,7 @@ void Decoder::take_splits(ByteReader& in) {
             satisfied_ = true;
             return;
         }
-        progress_->visit(coder, nullptr);
+        progress_->visit(coder, nullptr);  // behind the code's end all decisions are yes: that ends soon
     }
     error_ = error;
 }
@@ -120,10 +149,6 @@ void Decoder::take_splits(ByteReader& in) {
 void Decoder::take_extra(Piece piece, ByteReader& in) {
     require(has_all(), "the stream is damaged: it ends before the mesh is whole");
     const auto n = static_cast<std::size_t>(header_.vertices), m = static_cast<std::size_t>(header_.faces);
-    const auto check = [](std::int64_t x, std::size_t end) {
-        require(x >= 0 && x < static_cast<std::int64_t>(end), "the stream is damaged: an order is none");
-        return static_cast<Index>(x);
-    };
     if (piece == Piece::end) {
         stage_ = Stage::ended;
         buffer_.clear();
@@ -133,20 +158,13 @@ void Decoder::take_extra(Piece piece, ByteReader& in) {
     } else if (piece == Piece::wedges) {
         wedges_ = unpacked_wedges(in, progress_->mesh());
     } else if (piece == Piece::vertex_order) {
-        const std::vector<std::int64_t> numbers = unpacked(in, n, 4);
-        for (std::size_t v = 0; v < n; ++v) {
-            const Index parent = progress_->parents()[v];
-            vertex_order_.push_back(check(numbers[v] + (parent >= 0 ? vertex_order_[parent]
-                                                        : v         ? vertex_order_[v - 1]
-                                                                    : 0),
-                                          n));
-        }
+        const std::vector<Index>& parents = progress_->parents();
+        vertex_order_ = unpacked_order(
+            in, n, [&](std::size_t v) { return parents[v] >= 0 ? static_cast<std::size_t>(parents[v]) : v - 1; });
     } else if (piece == Piece::face_order) {
-        const std::vector<std::int64_t> numbers = unpacked(in, m, 4), turns = unpacked(in, m, 1);
-        for (std::size_t f = 0; f < m; ++f) {
-            face_order_.push_back(check(numbers[f] + (f ? face_order_[f - 1] : 0), m));
-            turn_.push_back(static_cast<std::uint8_t>(check(turns[f], 3)));
-        }
+        std::vector<Index> order = unpacked_order(in, m, [](std::size_t f) { return f - 1; });
+        turn_ = unpacked_turns(in, m);
+        face_order_ = std::move(order);
     } else {
         throw InputError("the stream is damaged: a piece of an unknown kind");
     }

@@ -32,6 +32,8 @@ public:
     Index vertices() const { return progress_ ? progress_->mesh().vertices() : 0; }
     /// The encoder's estimate of the RMS distance of the whole mesh's vertices from the present mesh, mesh units.
     double error() const { return error_; }
+    bool is_exact() const { return exact_.has_value(); }         ///< positions are bit for bit what they were
+    bool keeps_order() const { return !vertex_order_.empty(); }  ///< vertices and faces are in the order of the input
     /// How many bytes of the file have not come yet; only known once there is a header.
     std::size_t missing() const;
 

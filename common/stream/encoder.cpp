@@ -39,14 +39,30 @@ std::vector<Cell> cells_of(const Positions& positions, const Header& header) {
     return cells;
 }
 
+/// The vertices of the region that is to come first, and those around its faces.
+std::vector<std::uint8_t> wanted_first(const Layer& layer, const EncodeOptions& options) {
+    if (!options.first) return {};
+    std::vector<std::uint8_t> inside, out;
+    for (const Vec3& p : layer.mesh.positions) inside.push_back(options.first(p) ? 1 : 0);
+    out = inside;
+    for (const Face& f : layer.mesh.faces)
+        if (inside[f[0]] || inside[f[1]] || inside[f[2]])
+            for (const Index v : f) out[v] = 1;
+    return out;
+}
+
 class Encoder {
 public:
     Encoder(const Layer& layer, const EncodeOptions& options, const std::function<void(double)>& tick)
         : layer_(layer), options_(options), tick_(tick) {
         header_.bits = options.bits;
-        choose_grid(layer, options, header_);
+        if (options.grid)
+            header_.origin = options.grid->origin, header_.step = options.grid->step;
+        else
+            choose_grid(layer, options, header_);
         cells_ = cells_of(layer.mesh.positions, header_);
-        plan_ = std::make_unique<Plan>(layer.mesh.faces, cells_, [&](double done) { report(0.2 * done); });
+        plan_ = std::make_unique<Plan>(layer.mesh.faces, cells_, wanted_first(layer, options),
+                                       [&](double done) { report(0.2 * done); });
         header_.columns = Columns::describe(layer.attributes);
         columns_ = Columns(header_.columns);
     }
@@ -77,7 +93,7 @@ private:
         constexpr double share = 0.12;
         int less = 0;
         if (batch >= plan_->batches()) return 0;
-        const double allowed = share * plan_->error(batch) * plan_->error(batch);
+        const double allowed = share * plan_->error_of_first(batch) * plan_->error_of_first(batch);
         while (less < options_.bits - 4 && std::ldexp(1.0, 2 * (less + 1)) / 12 <= allowed) ++less;
         return less;
     }
@@ -103,7 +119,8 @@ private:
 
     void write_batch(std::size_t batch) {
         refine_until(bits_less(batch));
-        if (!bulge_chosen_ && progress_->mesh().vertices() >= header_.vertices / 8) choose_bulge();
+        // A region that is whole must stay as it is, so with one there is no bulge.
+        if (!bulge_chosen_ && !options_.first && progress_->mesh().vertices() >= header_.vertices / 8) choose_bulge();
         plan_->begin_batch(batch);
         for (double done = 1; done == 1 || !progress_->at_end_of_batch(); ++done) {
             progress_->visit(coder_, plan_.get());
@@ -114,7 +131,8 @@ private:
                 write_splits(batch, done / progress_->batch_size());
         }
         const bool finer_next = bits_less(batch + 1) < plan_->bits_less;
-        if (visits_ > 0 && (finer_next || batch + 1 == plan_->batches())) write_splits(batch, 1);
+        const bool whole = batch + 1 == plan_->batches() || batch + 1 == plan_->batches_of_first();
+        if (visits_ > 0 && (finer_next || whole)) write_splits(batch, 1);
     }
 
     void write_splits(std::size_t batch, double done) {
@@ -243,6 +261,17 @@ Bytes encode(const Layer& layer, const EncodeOptions& options, const std::functi
     for (const Face& f : layer.mesh.faces)
         for (const Index v : f) require(v >= 0 && v < vertices, "a face has a vertex that is not there");
     return Encoder(layer, options, tick).run();
+}
+
+Bytes region_first(const Decoder& whole, std::function<bool(const Vec3&)> first) {
+    require(whole.finished(), "only a whole stream can be put in another order");
+    EncodeOptions options;
+    options.bits = whole.header().bits;
+    options.exact = whole.is_exact();
+    options.keep_order = whole.keeps_order();
+    options.first = std::move(first);
+    options.grid = Grid{whole.header().origin, whole.header().step};
+    return encode(whole.layer(), options);
 }
 
 }  // namespace multires::stream

@@ -11,15 +11,21 @@
 namespace multires::stream {
 namespace {
 
+constexpr std::size_t outside_stages = 2;  ///< of those of a plan with a region
+constexpr double fine_share = 0.44;        ///< of the vertices that fine sets leave
+constexpr double outside_share = 0.016;    ///< of those outside a region that are there when the region is whole
+constexpr double least_batch = 0.01;       ///< of the vertices that are there
+
 /// Rings of the vertices that may be split off again: the others are irregular here and stay.
-Rings removable(const Mesh& mesh) {
+/// @param stay  #V: 1 for others that stay; empty: none
+Rings removable(const Mesh& mesh, const std::vector<std::uint8_t>& stay) {
     Rings rings = vertex_rings(mesh);
     const StarMesh stars(static_cast<Index>(mesh.positions.size()), mesh.faces);
     Rings out;
     out.kind = rings.kind;
     for (Index v = 0; v < rings.rows(); ++v) {
         const bool regular = rings.kind[v] == RingKind::closed || rings.kind[v] == RingKind::open;
-        if (regular && stars.regular(v))
+        if (regular && stars.regular(v) && (stay.empty() || !stay[v]))
             out.neighbor.insert(out.neighbor.end(), rings.begin(v), rings.begin(v) + rings.size(v));
         else if (regular)
             out.kind[v] = RingKind::irregular;
@@ -36,60 +42,115 @@ HierarchyOptions plain_sets() {
     return o;
 }
 
-HierarchyOptions fine_sets(Index vertices) {
+HierarchyOptions fine_sets(double base) {
     HierarchyOptions o = plain_sets();
     o.length_weight = 0.03;
-    o.base_vertices = std::max<Index>(4, static_cast<Index>(vertices * 0.44));
+    o.base_vertices = std::max<Index>(4, static_cast<Index>(base));
     return o;
 }
 
-HierarchyOptions coarse_sets() {
-    HierarchyOptions o = plain_sets();
+HierarchyOptions coarse_sets(double base) {
+    HierarchyOptions o = fine_sets(base);
     o.length_weight = 0.003;
     o.set_share = 0.5;
-    o.base_vertices = 4;
     return o;
+}
+
+/// Leaves in the base what only went one by one: visiting all others for each takes its time.
+void cut(Hierarchy& h) {
+    while (!h.levels.empty() && h.levels.back().fine - h.levels.back().coarse < least_batch * h.levels.back().coarse) {
+        h.levels.pop_back();
+        h.size.pop_back();
+    }
+}
+
+/// The mesh that a hierarchy leaves, in places of its base.
+Mesh left(const Mesh& mesh, const Hierarchy& h) {
+    const Index base = h.size.back();
+    Array<Index> gone_to(h.vertices()), of_input(h.vertices());
+    for (Index p = 0; p < h.vertices(); ++p) {
+        gone_to[p] = p < base ? p : gone_to[h.parent[p]];
+        of_input[h.order[p]] = gone_to[p];
+    }
+    Mesh out{Positions(h.positions.begin(), h.positions.begin() + base), {}};
+    for (const Face& f : mesh.faces) {
+        const Face g = {of_input[f[0]], of_input[f[1]], of_input[f[2]]};
+        if (!repeats_an_index(g) || repeats_an_index(f)) out.faces.push_back(g);
+    }
+    return out;
 }
 
 }  // namespace
 
-Plan::Plan(const Faces& faces, const std::vector<Cell>& cells, const Tick& tick) : faces_(faces), cells_(cells) {
+Plan::Plan(const Faces& faces, const std::vector<Cell>& cells, std::vector<std::uint8_t> first, const Tick& tick)
+    : faces_(faces), cells_(cells), first_(std::move(first)) {
     Mesh mesh{Positions(cells.size()), faces};
     for (std::size_t i = 0; i < cells.size(); ++i) mesh.positions[i] = Vec3(cells[i][0], cells[i][1], cells[i][2]);
-    Hierarchy fine =
-        build_hierarchy(removable(mesh), mesh.positions, fine_sets(static_cast<Index>(cells.size())), tick);
-    const Positions left(fine.positions.begin(), fine.positions.begin() + fine.size.back());
-    Hierarchy coarse = build_hierarchy(std::move(fine.base), left, coarse_sets(), tick);
-    base_ = coarse.size.back();
-    Positions positions = std::move(fine.positions);
-    std::copy(coarse.positions.begin(), coarse.positions.end(), positions.begin());
-    parent_ = std::move(coarse.parent);
-    Array<Index> coarse_place(coarse.vertices());
-    for (Index p = 0; p < coarse.vertices(); ++p) {
-        coarse_place[coarse.order[p]] = p;
-        order_.push_back(fine.order[coarse.order[p]]);
-    }
-    for (std::size_t k = coarse.levels.size(); k-- > 0;)
-        batches_.push_back({coarse.levels[k].coarse, std::move(coarse.levels[k].odd)});
-    add_fine(std::move(fine), coarse_place);
-    estimate_errors(positions);
+    if (std::find(first_.begin(), first_.end(), 1) == first_.end()) first_.clear();
+    join(stages(mesh, tick));
+    estimate_errors();
     place_.resize(base_);
     std::iota(place_.begin(), place_.end(), 0);
     vertex_.assign(order_.size(), -1);
     std::iota(vertex_.begin(), vertex_.begin() + base_, 0);
 }
 
-/// @param coarse_place  places of the fine hierarchy's base in the coarse one
-void Plan::add_fine(Hierarchy fine, const Array<Index>& coarse_place) {
-    const Index coarse = static_cast<Index>(coarse_place.size());
-    const auto place = [&](Index p) { return p < coarse ? coarse_place[p] : p; };
-    for (Index p = coarse; p < fine.vertices(); ++p) {
-        order_.push_back(fine.order[p]);
-        parent_.push_back(place(fine.parent[p]));
+/// Hierarchies, each of the mesh that the one before has left, the finest first.
+std::vector<Hierarchy> Plan::stages(const Mesh& mesh, const Tick& tick) const {
+    std::vector<Hierarchy> out;
+    const auto add = [&](Rings rings, const Positions& positions, const HierarchyOptions& options) {
+        out.push_back(build_hierarchy(std::move(rings), positions, options, tick));
+        const Hierarchy& h = out.back();
+        return Positions(h.positions.begin(), h.positions.begin() + h.size.back());
+    };
+    Mesh rest = mesh;
+    if (!first_.empty()) {
+        const auto kept = static_cast<double>(std::count(first_.begin(), first_.end(), 1));
+        const double others = static_cast<double>(first_.size()) - kept;
+        const Positions some = add(removable(mesh, first_), mesh.positions, fine_sets(kept + fine_share * others));
+        Rings rings = std::move(out[0].base);
+        add(std::move(rings), some, coarse_sets(kept + outside_share * others));
+        cut(out[1]);
+        rest = left(left(mesh, out[0]), out[1]);
     }
-    for (std::size_t k = fine.levels.size(); k-- > 0;) {
-        batches_.push_back({fine.levels[k].coarse, std::move(fine.levels[k].odd)});
-        for (Index& p : batches_.back().odd.neighbor) p = place(p);
+    const Positions some = add(removable(rest, {}), rest.positions, fine_sets(fine_share * rest.positions.size()));
+    Rings rings = std::move(out.back().base);
+    add(std::move(rings), some, coarse_sets(4));
+    return out;
+}
+
+/// Makes one order, one list of parents and one of batches out of them.
+void Plan::join(std::vector<Hierarchy> stages) {
+    // Places of the finest are those of the whole; the places of a base are the next stage's vertices.
+    Array<Index> input(cells_.size());  // of each of the stage's vertices
+    std::iota(input.begin(), input.end(), 0);
+    std::vector<Array<Index>> inputs;
+    for (const Hierarchy& h : stages) {
+        Array<Index> of_place(h.vertices());
+        for (Index p = 0; p < h.vertices(); ++p) of_place[p] = input[h.order[p]];
+        input.assign(of_place.begin(), of_place.begin() + h.size.back());
+        inputs.push_back(std::move(of_place));
+    }
+    base_ = stages.back().size.back();
+    Array<Index> place(base_);  // in the whole, of the stage's base
+    std::iota(place.begin(), place.end(), 0);
+    order_.assign(inputs.back().begin(), inputs.back().begin() + base_);
+    parent_.assign(base_, -1);
+    for (std::size_t k = stages.size(); k-- > 0;) {
+        Hierarchy& h = stages[k];
+        for (Index p = static_cast<Index>(place.size()); p < h.vertices(); ++p) {
+            place.push_back(p);
+            order_.push_back(inputs[k][p]);
+            parent_.push_back(place[h.parent[p]]);
+        }
+        for (std::size_t l = h.levels.size(); l-- > 0;) {
+            batches_.push_back({h.levels[l].coarse, std::move(h.levels[l].odd)});
+            for (Index& p : batches_.back().odd.neighbor) p = place[p];
+        }
+        Array<Index> of_vertex(h.vertices());
+        for (Index p = 0; p < h.vertices(); ++p) of_vertex[h.order[p]] = place[p];
+        place = std::move(of_vertex);
+        if (first_.empty() || k == outside_stages) batches_of_first_ = batches();
     }
 }
 
@@ -108,26 +169,41 @@ Faces Plan::base_faces() const {
 
 /// What each batch adds is the distance of its vertices from the planes of the faces they leave behind; batches add
 /// like independent noise.
-void Plan::estimate_errors(const Positions& p) {
+void Plan::estimate_errors() {
     error_.assign(batches(), 0);
-    double sum = 0;
+    error_of_first_.assign(batches(), 0);
+    double sum = 0, sum_of_first = 0;
+    auto left = std::count(first_.begin(), first_.end(), 1);  // of the region's vertices, with the batch
     for (std::size_t b = batches(); b-- > 0;) {
         const Batch& batch = batches_[b];
-        double squares = 0;
+        double squares = 0, squares_of_first = 0;
+        std::ptrdiff_t gone = 0;
         for (Index row = 0; row < batch.odd.rows(); ++row) {
-            const Vec3& v = p[batch.coarse + row];
-            const Vec3& u = p[parent_[batch.coarse + row]];
-            double least = (v - u).squaredNorm();
-            for (Index j = 0; j + 1 < batch.odd.size(row); ++j) {
-                const Vec3 n = (p[batch.odd.begin(row)[j]] - u).cross(p[batch.odd.begin(row)[j + 1]] - u);
-                const double size = n.squaredNorm(), height = n.dot(v - u);
-                if (size > 0) least = std::min(least, height * height / size);
-            }
-            squares += least;
+            const double square = squared_height(batch, row);
+            squares += square;
+            if (!first_.empty() && first_[order_[batch.coarse + row]]) squares_of_first += square, ++gone;
         }
         sum += squares / (batch.coarse + batch.odd.rows());
         error_[b] = std::sqrt(sum);
+        if (gone > 0) sum_of_first += squares_of_first / static_cast<double>(left);
+        left -= gone;
+        error_of_first_[b] = std::sqrt(sum_of_first);
     }
+}
+
+double Plan::squared_height(const Batch& batch, Index row) const {
+    const auto point = [&](Index place) {
+        const Cell& c = cells_[order_[place]];
+        return Vec3(c[0], c[1], c[2]);
+    };
+    const Vec3 u = point(parent_[batch.coarse + row]), v = point(batch.coarse + row);
+    double least = (v - u).squaredNorm();
+    for (Index j = 0; j + 1 < batch.odd.size(row); ++j) {
+        const Vec3 n = (point(batch.odd.begin(row)[j]) - u).cross(point(batch.odd.begin(row)[j + 1]) - u);
+        const double size = n.squaredNorm(), height = n.dot(v - u);
+        if (size > 0) least = std::min(least, height * height / size);
+    }
+    return least;
 }
 
 void Plan::begin_batch(std::size_t batch) {

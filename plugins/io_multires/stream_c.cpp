@@ -1,4 +1,5 @@
 #include "stream/decoder.h"
+#include "stream/encoder.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -20,6 +21,7 @@ struct Handle {
     multires::stream::Decoder decoder;
     multires::Layer layer;
     std::string message;
+    multires::stream::Bytes bytes;
 };
 
 template <class Do>
@@ -42,7 +44,7 @@ MULTIRES_EXPORT void* multires_stream_new(std::int32_t vertices, double error) {
     if (vertices > 0) limits.vertices = vertices;
     if (error > 0) limits.error = error;
     try {
-        return new Handle{multires::stream::Decoder(limits), {}, {}};
+        return new Handle{multires::stream::Decoder(limits), {}, {}, {}};
     } catch (const std::exception&) {
         return nullptr;
     }
@@ -112,4 +114,25 @@ MULTIRES_EXPORT void multires_stream_wedges(void* handle, double* uv, std::int32
         *uv++ = w.u, *uv++ = w.v;
         *texture++ = w.texture;
     }
+}
+
+/// Writes the whole stream anew with a region first.
+/// @param box      whether the region is a box, else a sphere
+/// @param numbers  its corners, or centre and radius
+/// @returns its size, 0: it failed
+MULTIRES_EXPORT std::int64_t multires_stream_region_first(void* handle, int box, const double* numbers) {
+    auto* h = static_cast<Handle*>(handle);
+    const multires::Vec3 a(numbers[0], numbers[1], numbers[2]);
+    const auto inside = [&](const multires::Vec3& p) {
+        if (!box) return (p - a).norm() <= numbers[3];
+        return (p.array() >= a.array()).all() && p[0] <= numbers[3] && p[1] <= numbers[4] && p[2] <= numbers[5];
+    };
+    guarded(h, [&] { h->bytes.clear(), h->bytes = multires::stream::region_first(h->decoder, inside); });
+    return static_cast<std::int64_t>(h->bytes.size());
+}
+
+/// @param out  as many as multires_stream_region_first() said
+MULTIRES_EXPORT void multires_stream_bytes(void* handle, std::uint8_t* out) {
+    const multires::stream::Bytes& b = static_cast<Handle*>(handle)->bytes;
+    std::copy(b.begin(), b.end(), out);
 }

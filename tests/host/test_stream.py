@@ -111,6 +111,34 @@ def test_a_stream_decodes_as_bytes_arrive_and_comes_nearer(multires, scan):
     np.testing.assert_array_equal(stream.mesh().faces, whole.faces)
 
 
+def test_a_region_comes_first(multires, scan):
+    whole = multires.Stream(scan[1])
+    vertices, faces = whole.mesh().vertices, whole.mesh().faces
+    low, high = vertices.min(axis=0), vertices.max(axis=0)
+    corner = low + (high - low) / 2
+    regions = {
+        "box": (dict(box=(low, corner)), lambda v: (v <= corner).all(axis=1)),
+        "sphere": (dict(sphere=(low, 0.5 * np.linalg.norm(high - low))),
+                   lambda v: np.linalg.norm(v - low, axis=1) <= 0.5 * np.linalg.norm(high - low)),
+    }  # fmt: skip
+    for region, inside in regions.values():
+        data = whole.region_first(**region)
+        wanted = inside(vertices)[faces].all(axis=1).sum()
+        assert 0.1 < wanted / len(faces) < 0.5
+        part = multires.Stream(data[: len(data) * 3 // 4]).mesh()
+        assert len(part.vertices) < 0.75 * len(vertices)
+        assert inside(part.vertices)[part.faces].all(axis=1).sum() == wanted
+        again = multires.Stream(data).mesh()
+        np.testing.assert_array_equal(np.sort(again.vertices.sum(axis=1)), np.sort(vertices.sum(axis=1)))
+        assert len(again.faces) == len(faces)
+    with pytest.raises(ValueError, match="either a sphere or a box"):
+        whole.region_first()
+    with pytest.raises(ValueError, match="a sphere is a centre and a radius"):
+        whole.region_first(sphere=(low, np.nan))
+    with pytest.raises(multires.StreamError, match="only a whole stream"):
+        multires.Stream(scan[1].read_bytes()[:2000]).region_first(sphere=(low, 1))
+
+
 def test_attributes_and_wedges_of_a_stream(multires, meshes, tmp_path):
     ms = opened(meshes / "torus.ply")
     ms.compute_color_by_function_per_vertex(x="vi % 256", y="7", z="9")

@@ -6,11 +6,13 @@
 #include "stream/encoder.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <set>
 #include <string>
 
 namespace multires {
@@ -22,6 +24,7 @@ using stream::decode;
 using stream::Decoder;
 using stream::encode;
 using stream::EncodeOptions;
+using stream::region_first;
 
 constexpr std::size_t small = 1500;  // vertices: more tell nothing new
 
@@ -151,6 +154,63 @@ TEST(Stream, LimitsStopAtSoManyVerticesOrSoSmallAnError) {
     decoder.feed(bytes.data(), bytes.size() / 2);
     near.error = decoder.error();
     EXPECT_LE(decode(bytes, near).mesh.positions.size(), decoder.layer().mesh.positions.size());
+}
+
+/// The faces with all corners below x = 0, as sorted triples of places.
+std::set<std::array<double, 9>> faces_below_zero(const Mesh& mesh) {
+    std::set<std::array<double, 9>> out;
+    for (const Face& f : mesh.faces) {
+        std::array<std::array<double, 3>, 3> p{};
+        for (int k = 0; k < 3; ++k)
+            for (int c = 0; c < 3; ++c) p[k][c] = mesh.positions[f[k]][c];
+        if (p[0][0] > 0 || p[1][0] > 0 || p[2][0] > 0) continue;
+        std::sort(p.begin(), p.end());
+        std::array<double, 9> flat{};
+        for (int i = 0; i < 9; ++i) flat[i] = p[i / 3][i % 3];
+        out.insert(flat);
+    }
+    return out;
+}
+
+TEST(Stream, ARegionThatComesFirstIsWholeWhileTheRestIsCoarse) {
+    const Bytes plain = encode(layer_of(shapes::torus(40, 30)), {});
+    Decoder whole;
+    EXPECT_THROW(region_first(whole, [](const Vec3&) { return true; }), InputError);
+    whole.feed(plain.data(), plain.size());
+    const Bytes bytes = region_first(whole, [](const Vec3& p) { return p[0] <= 0; });
+    EXPECT_LT(static_cast<double>(bytes.size()), 1.15 * static_cast<double>(plain.size()));
+    const std::set<std::array<double, 9>> wanted = faces_below_zero(whole.layer().mesh);
+    Decoder decoder;
+    Index complete = 0;
+    for (const std::uint8_t& b : bytes) {
+        const std::size_t before = decoder.missing();
+        decoder.feed(&b, 1);
+        if (!decoder.started() || decoder.missing() == before) continue;
+        const bool all = faces_below_zero(decoder.layer().mesh) == wanted;
+        if (all && complete == 0) complete = decoder.vertices();
+        EXPECT_EQ(all, complete > 0);  // once it is whole it stays so
+    }
+    EXPECT_TRUE(decoder.finished());
+    EXPECT_GE(complete, 600);
+    EXPECT_LE(complete, 800);  // half of 1200, those next to them, and few of the rest
+}
+
+/// Whatever is in the region; bits, exactness and order are those of the file that was there before.
+TEST(Stream, ARegionFirstChangesNothingOfTheMesh) {
+    for (const auto& [name, mesh] : every_class()) {
+        if (mesh.positions.size() > small || mesh.positions.empty() || !is_finite(mesh)) continue;
+        SCOPED_TRACE(name);
+        EncodeOptions options;
+        options.keep_order = true;
+        for (const bool exact : {false, true}) {
+            options.exact = exact;
+            const Bytes bytes = encode(layer_of(mesh), options);
+            Decoder whole;
+            whole.feed(bytes.data(), bytes.size());
+            const double middle = mesh.positions[mesh.positions.size() / 2][0];
+            expect_same(decode(region_first(whole, [&](const Vec3& p) { return p[0] <= middle; })), whole.layer());
+        }
+    }
 }
 
 TEST(Stream, FewBytesAreClearlyRefused) {

@@ -74,6 +74,8 @@ def _library() -> ctypes.CDLL:
         ("attribute", ctypes.c_char_p, [handle, ctypes.c_int32, numbers]),
         ("values", None, [handle, ctypes.c_int32, numbers]),
         ("wedges", None, [handle, numbers, numbers]),
+        ("region_first", ctypes.c_int64, [handle, ctypes.c_int, numbers]),
+        ("bytes", None, [handle, ctypes.c_char_p]),
     ]:
         function = getattr(library, "multires_stream_" + name)
         function.restype, function.argtypes = result, arguments
@@ -146,6 +148,27 @@ class Stream:
         """The mesh as far as it is known. Raises StreamError as long as there is none."""
         self._check(_library().multires_stream_take(self._handle))
         return StreamMesh(self._handle)
+
+    def region_first(self, *, sphere: tuple[npt.ArrayLike, float] | None = None,
+                     box: tuple[npt.ArrayLike, npt.ArrayLike] | None = None) -> bytes:  # fmt: skip
+        """The same mesh as another stream, which has all vertices and faces of a region before it refines the rest.
+
+            answer.write(multires.Stream("scan.mrm").region_first(sphere=(eye, 0.2)))
+
+        sphere: centre and radius; box: lowest and highest corner; one of them, in units of the mesh
+        Raises StreamError unless all has been read. Takes as long as saving: the file is written anew.
+        """
+        if (sphere is None) == (box is None):
+            raise ValueError("a region is either a sphere or a box")
+        region = sphere if box is None else box
+        numbers = np.concatenate([np.ravel(np.asarray(part, float)) for part in region or ()])
+        if len(numbers) != (4 if box is None else 6) or not np.isfinite(numbers).all():
+            raise ValueError("a sphere is a centre and a radius, a box two corners, of numbers")
+        size = _library().multires_stream_region_first(self._handle, box is not None, numbers.ctypes.data)
+        self._check(size)
+        data = ctypes.create_string_buffer(size)
+        _library().multires_stream_bytes(self._handle, data)
+        return data.raw
 
     @property
     def error(self) -> float:
