@@ -43,6 +43,9 @@ Positions Progress::points() const {
 }
 
 void Progress::begin_batch() {
+    // Or a few bytes could ask for visits without end: the more often nothing happens, the less it costs.
+    require(batch_ == 0 || mesh_.vertices() > before_batch_, "the stream is damaged: nothing is split in a batch");
+    before_batch_ = mesh_.vertices();
     ++batch_;
     at_ = 0;
     std::vector<std::size_t> begin;  // of each valence, the highest first

@@ -76,7 +76,8 @@ private:
 
     std::vector<Index> order_;  ///< of the batch
     std::size_t at_ = 0;
-    Index batch_ = 0;  ///< counted from 1; the mark of faces around vertices that are new in it
+    Index before_batch_ = 0;  ///< vertices
+    Index batch_ = 0;         ///< counted from 1; the mark of faces around vertices that are new in it
     double density_ = 0.3, mean_area_ = 0;
     StarShape shape_;
     Star star_;
