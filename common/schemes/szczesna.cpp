@@ -2,6 +2,9 @@
 #include "schemes/ring_update.h"
 #include "schemes/table.h"
 
+#include <memory>
+#include <stdexcept>
+
 // Lifting with the update first (Szczesna 2011), one vertex after the other, with U of ring_update.h and a relaxation
 // operator R, the chapter's or another:
 //
@@ -53,11 +56,12 @@ public:
         : may_fold_(may_fold && op != Operator::umbrella), relaxation_(relaxation_of(op)),
           natural_(relaxation_of(Operator::natural_neighbours)) {}
 
+    /// @param weight, flaps  of the level's entries
     /// @returns false if the vertex keeps its value
-    bool row(const Rings& rings, Index r, const Positions& positions, RingWeights& weights) {
+    bool row(const Rings& rings, Index r, const Positions& positions, double* weight, double* flaps) {
         const Star s = star(rings, r);
-        double* const weight = weights.weight.data() + rings.offset[r];
-        double* const flaps = weights.flap_weight.empty() ? nullptr : weights.flap_weight.data() + rings.offset[r];
+        weight += rings.offset[r];
+        if (flaps) flaps += rings.offset[r];
         return (may_fold_ && is_folded(s, positions) ? natural_ : relaxation_).row(s, positions, weight, flaps);
     }
 
@@ -70,14 +74,24 @@ class Szczesna final : public Scheme {
 public:
     Szczesna(const Hierarchy& h, const SchemeOptions& options) : Scheme(h) {
         if (options.update == Update::mean) part_ = ring_update::parts_of(h);
+        for (const Level& level : h.levels) first_entry_.push_back(first_entry_.back() + level.odd.neighbor.size());
+        weight_.resize(first_entry_.back());
+        if (uses_flaps(options.op)) flap_weight_.resize(weight_.size());
+        keeps_.assign(h.vertices(), 0);
         Positions positions = h.positions;
         Weigher weigher(options.op, updates());
-        for (const Level& level : h.levels) {
-            batches_.push_back(updates() ? ring_update::batches_of(level) : Batches{{}, level.sets});
-            RingWeights weights = unset_weights(level.odd, options.op);
-            weigh(level.odd, batches_.back(), options.op, weigher, positions, weights);
-            odd_.emplace_back(level.odd, std::move(weights), options.storage);
+        for (std::size_t k = 0; k < h.levels.size(); ++k) {
+            const Level& level = h.levels[k];
+            require_flaps(level.odd, options.op);
+            batches_.emplace_back();
+            if (level.odd.rows() != 1)
+                batches_[k] =
+                    std::make_unique<Batches>(updates() ? ring_update::batches_of(level) : Batches{{}, level.sets});
+            weigh(k, options.op, weigher, positions);
         }
+        if (options.storage != Storage::single) return;
+        narrow(weight_, single_);
+        narrow(flap_weight_, flap_single_);
     }
 
     Coefficients analyse(Field f, Storage storage) const override {
@@ -93,16 +107,39 @@ public:
     }
 
     std::size_t bytes() const override {
-        std::size_t sum =
-            relaxed_rows::bytes(odd_) + part_.capacity() * sizeof(Part) + batches_.capacity() * sizeof(Batches);
-        for (const Batches& b : batches_) sum += (b.rows.capacity() + b.bounds.capacity()) * sizeof(Index);
+        std::size_t sum = part_.capacity() * sizeof(Part) + keeps_.capacity() +
+                          (weight_.capacity() + flap_weight_.capacity()) * sizeof(double) +
+                          (single_.capacity() + flap_single_.capacity()) * sizeof(float) +
+                          first_entry_.capacity() * sizeof(std::size_t) +
+                          batches_.capacity() * sizeof(std::unique_ptr<Batches>);
+        for (const auto& b : batches_)
+            if (b) sum += sizeof(Batches) + (b->rows.capacity() + b->bounds.capacity()) * sizeof(Index);
         return sum;
     }
 
 private:
     static constexpr Index grain = 256;
 
+    static void require_flaps(const Rings& rings, Operator op) {
+        if (uses_flaps(op) && rings.flap.size() != rings.neighbor.size())
+            throw std::invalid_argument("Szczesna: the rings have no flaps");
+    }
+    static void narrow(Array<double>& wide, Array<float>& single) {
+        single.assign(wide.begin(), wide.end());
+        wide = Array<double>();
+    }
+
     bool updates() const { return !part_.empty(); }
+
+    const Batches& batches(std::size_t k) const {
+        static const Batches one_row{{}, {0, 1}};
+        return batches_[k] ? *batches_[k] : one_row;
+    }
+
+    RowWeights rows(std::size_t k) const {
+        const auto from = [&](const auto& all) { return all.empty() ? nullptr : all.data() + first_entry_[k]; };
+        return {&hierarchy().levels[k].odd, from(weight_), from(flap_weight_), from(single_), from(flap_single_)};
+    }
 
     template <class At>
     void update(const Rings& rings, Index row, int width, bool undo, const At& at) const {
@@ -111,15 +148,17 @@ private:
 
     /// Takes all rows of a level out of the positions, and makes the weights of each from what it leaves.
     /// @param shared  for batches too small to be worth one of their own
-    void weigh(const Rings& odd, const Batches& batches, Operator op, Weigher& shared, Positions& positions,
-               RingWeights& weights) const {
-        Array<std::uint8_t> keeps(odd.rows());
+    void weigh(std::size_t k, Operator op, Weigher& shared, Positions& positions) {
+        const Rings& odd = hierarchy().levels[k].odd;
+        const Batches& batches = this->batches(k);
+        double* const weight = weight_.data() + first_entry_[k];
+        double* const flaps = flap_weight_.empty() ? nullptr : flap_weight_.data() + first_entry_[k];
         const auto at = [&](Index place) { return positions[place].data(); };
         const auto run = [&](Index begin, Index end, Weigher& weigher) {
             for (Index i = begin; i < end; ++i) {
                 const Index r = batches.row(i);
                 update(odd, r, 3, false, at);
-                keeps[r] = !weigher.row(odd, r, positions, weights);
+                keeps_[odd.vertex(r)] = !weigher.row(odd, r, positions, weight, flaps);
             }
         };
         for (std::size_t b = batches.bounds.size() - 1; b-- > 0;) {
@@ -132,14 +171,12 @@ private:
                     run(begin + from, begin + to, weigher);
                 });
         }
-        for (Index r = 0; r < odd.rows(); ++r)
-            if (keeps[r]) weights.fixed.push_back(r);
     }
 
     /// Calls take(row, room for a row's values) for all rows of a batch, in parallel.
     template <class Take>
     void for_batch(std::size_t k, std::size_t b, int width, const Take& take) const {
-        const Batches& batches = batches_[k];
+        const Batches& batches = this->batches(k);
         const Index first = batches.bounds[b];
         parallel_chunks(batches.bounds[b + 1] - first, grain, [&](Index begin, Index end) {
             Field room = Field::unset(1, width);
@@ -149,21 +186,20 @@ private:
 
     /// R f of an odd row; one that keeps its value is predicted by its parent.
     void predict(std::size_t k, const RowWeights& weights, Index r, const Field& f, double* predicted) const {
-        const std::vector<Index>& fixed = odd_[k].fixed();
-        if (!fixed.empty() && std::binary_search(fixed.begin(), fixed.end(), r))
-            return copy_row(f.row(hierarchy().parent[hierarchy().levels[k].coarse + r]), f.width, predicted);
+        const Index place = hierarchy().levels[k].coarse + r;
+        if (keeps_[place]) return copy_row(f.row(hierarchy().parent[place]), f.width, predicted);
         row_sums(weights, r, r + 1, f.values.data(), f.width, predicted);
     }
 
     /// The details of a level; f, its values, becomes those of the coarser one.
     std::vector<Subband> analyse_level(std::size_t k, Field& f) const {
         const Rings& odd = hierarchy().levels[k].odd;
-        const RowWeights weights = odd_[k].rows();
+        const RowWeights weights = rows(k);
         const auto at = [&](Index place) { return f.row(place); };
         std::vector<Subband> bands(1);
         bands[0].rings = &odd;
         bands[0].values = Field::unset(odd.rows(), f.width);
-        for (std::size_t b = batches_[k].bounds.size() - 1; b-- > 0;)
+        for (std::size_t b = batches(k).bounds.size() - 1; b-- > 0;)
             for_batch(k, b, f.width, [&](Index r, double* predicted) {
                 update(odd, r, f.width, false, at);
                 predict(k, weights, r, f, predicted);
@@ -177,9 +213,9 @@ private:
     template <class Value>
     void synthesise_level(std::size_t k, const Details<Value>& details, Field& f) const {
         const Rings& odd = hierarchy().levels[k].odd;
-        const RowWeights weights = odd_[k].rows();
+        const RowWeights weights = rows(k);
         const auto at = [&](Index place) { return f.row(place); };
-        for (std::size_t b = 0; b + 1 < batches_[k].bounds.size(); ++b)
+        for (std::size_t b = 0; b + 1 < batches(k).bounds.size(); ++b)
             for_batch(k, b, f.width, [&](Index r, double* predicted) {
                 predict(k, weights, r, f, predicted);
                 details.add(r, predicted, f, f.row(odd.vertex(r)));
@@ -187,9 +223,13 @@ private:
             });
     }
 
-    Array<Part> part_;              ///< #V; empty: no update
-    std::vector<Batches> batches_;  ///< #levels
-    std::vector<Stencil> odd_;
+    // A level may be one vertex: what all of them have is in one table.
+    Array<Part> part_;                               ///< #V; empty: no update
+    std::vector<std::unique_ptr<Batches>> batches_;  ///< #levels; null: one row
+    std::vector<std::size_t> first_entry_{0};        ///< #levels+1: where the entries of a level's rings begin
+    Array<double> weight_, flap_weight_;             ///< #entries
+    Array<float> single_, flap_single_;              ///< the same with Storage::single
+    Array<std::uint8_t> keeps_;                      ///< #V, by place: has no prediction but its parent
 };
 
 }  // namespace
