@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/reduce.h"
 #include "denoise/lattice.h"
+#include "denoise/sample.h"
 #include "denoise/white_share.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
@@ -61,56 +62,10 @@ double root_mean_square(const std::vector<double>& values) {
     return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-/// What the choice is made on: the whole mesh, or patches of a large one.
-struct Sample {
-    Faces faces;
-    Positions positions;
-    std::vector<double> deviation;
-    std::vector<std::uint8_t> core;  ///< vertices that count: not too near to where the patches were cut out
-};
-
-constexpr Index whole_up_to = 25000, patches = 12, patch_size = 1500;
-
-/// Breadth-first balls around vertices that are spread over the indices.
-Sample patches_of(const Faces& faces, const Positions& positions, const Neighbours& near,
-                  const std::vector<double>& deviation) {
-    std::vector<Index> place(positions.size(), -1), members;
-    std::vector<std::uint8_t> core;
-    for (Index patch = 0; patch < patches; ++patch) {
-        const Index seed =
-            static_cast<Index>((static_cast<std::int64_t>(near.rows()) * (2 * patch + 1)) / (2 * patches));
-        if (place[seed] >= 0) continue;
-        const std::size_t begin = members.size();
-        const auto take = [&](Index v) {
-            place[v] = static_cast<Index>(members.size());
-            members.push_back(v);
-        };
-        take(seed);
-        for (std::size_t next = begin; next < members.size() && members.size() < begin + patch_size; ++next)
-            for (Index k = near.offset[members[next]]; k < near.offset[members[next] + 1]; ++k)
-                if (place[near.vertex[k]] < 0) take(near.vertex[k]);
-        core.resize(members.size(), 0);
-        const std::size_t inner =
-            members.size() - begin >= patch_size ? (members.size() - begin) * 7 / 10 : members.size() - begin;
-        std::fill_n(core.begin() + static_cast<std::ptrdiff_t>(begin), inner, 1);
-    }
-    Sample sample;
-    sample.core = std::move(core);
-    sample.positions.resize(members.size());
-    sample.deviation.resize(members.size());
-    for (std::size_t i = 0; i < members.size(); ++i) {
-        sample.positions[i] = positions[members[i]];
-        sample.deviation[i] = deviation[members[i]];
-    }
-    std::size_t count = 0;
-    const auto inside = [&](const Face& f) { return place[f[0]] >= 0 && place[f[1]] >= 0 && place[f[2]] >= 0; };
-    for (const Face& f : faces) count += inside(f);
-    sample.faces.resize(count);
-    count = 0;
-    for (const Face& f : faces)
-        if (inside(f)) sample.faces[count++] = {place[f[0]], place[f[1]], place[f[2]]};
-    return sample;
-}
+constexpr Index whole_up_to = 25000;  ///< vertices; larger meshes are chosen for on patches
+constexpr Index patches = 12, patch_size = 1500;
+/// What `fast` measures on, and how many of the former patches it chooses on.
+constexpr Index fast_patches = 6, fast_size = 4000;
 
 /// A surface with directions and weights for its candidates.
 struct Prepared {
@@ -256,16 +211,18 @@ Choice choose(const Faces& faces, const Positions& positions, const Incidence& a
     return choice;
 }
 
-/// On patches if the mesh is large.
+/// On so many patches if the mesh is large.
 Choice choose_on_sample(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
-                        const Assumed& noise, const std::function<void(double)>& tick) {
+                        const Assumed& noise, Index count, const std::function<void(double)>& tick) {
     if (near.rows() <= whole_up_to)
         return choose(faces, positions, at, near, noise, std::vector<std::uint8_t>(near.rows(), 1), tick);
-    const Sample sample = patches_of(faces, positions, near, noise.deviation);
+    const Sample sample = patches_of(faces, positions, near, count, patch_size);
     const Incidence sample_at = vertex_faces(sample.faces, static_cast<Index>(sample.positions.size()));
     const Neighbours sample_near = neighbours(sample.faces, sample_at);
-    return choose(sample.faces, sample.positions, sample_at, sample_near,
-                  {sample.deviation, noise.factor, noise.certain, noise.white, noise.normal_steps}, sample.core, tick);
+    Assumed assumed = noise;
+    assumed.deviation.resize(sample.vertex.size());
+    for (std::size_t i = 0; i < sample.vertex.size(); ++i) assumed.deviation[i] = noise.deviation[sample.vertex[i]];
+    return choose(sample.faces, sample.positions, sample_at, sample_near, assumed, sample.core, tick);
 }
 
 /// What of the shifts within the surface is made.
@@ -322,6 +279,79 @@ Positions without_impulses(const Faces& faces, const Positions& positions, const
     return guided_steps(faces, start, at, face_graph(faces, at), spike_steps, moves);
 }
 
+/// What is known before the choice.
+struct Measured {
+    SurfaceNoise noise;
+    bool rounded = false;  ///< it is that of rounding to the lattice
+    Index spikes = 0;
+    Positions start;                ///< without impulses
+    std::vector<double> deviation;  ///< #V: of the noise along the normals, mesh units
+    double along_normals = 0;       ///< root mean square of it
+    double certain = 0;             ///< share of its square that there is at least
+
+    bool is_certain(double edge) const { return certain * along_normals > rounding * edge; }
+    /// The noise as it is assumed within the surface.
+    SurfaceNoise within(double strength) const {
+        SurfaceNoise out = noise;
+        out.along_normals = strength * along_normals;
+        return out;
+    }
+};
+
+/// @param step  of the lattice that all coordinates lie on
+/// @param edge  mean edge length
+Measured measured(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+                  const std::optional<double>& step, double edge, const AutomaticOptions& options, const Tick& tick) {
+    Measured m;
+    std::optional<SurfaceNoise> rounded;
+    if (step) rounded = rounding_noise(faces, positions, at, near, *step, edge);
+    m.rounded = rounded.has_value();
+    tick(0.05, "Looking for impulsive noise");
+    m.start = rounded ? positions : without_impulses(faces, positions, at, near, m.spikes);
+    tick(0.1, "Measuring the noise");
+    m.noise = rounded ? *rounded : surface_noise(faces, m.start, at, near, edge);
+    if (options.deviation) {
+        m.noise.along_normals = m.noise.at_least = *options.deviation;
+        m.noise.white = 1;
+        m.noise.axis.reset();
+    }
+    m.deviation = deviations(faces, m.start, near, m.noise, edge);
+    m.along_normals = root_mean_square(m.deviation);
+    m.certain = m.along_normals > 0 ? std::pow(m.noise.at_least / m.along_normals, 2) : 0;
+    return m;
+}
+
+/// What is to be done to a mesh, up to the choice.
+struct Plan {
+    Measured measured;
+    WithinSurface within;
+};
+
+Plan plan_of(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+             const std::optional<double>& step, double edge, const AutomaticOptions& options, const Tick& tick) {
+    Plan plan{measured(faces, positions, at, near, step, edge, options, tick), {}};
+    if (!plan.measured.is_certain(edge)) return plan;
+    tick(0.2, "Looking for noise within the surface");
+    const Measured& m = plan.measured;
+    plan.within = relax_within_surface(faces, m.start, near, m.within(options.strength), edge);
+    return plan;
+}
+
+/// The same, found on patches of the mesh.
+Plan sampled_plan(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+                  const std::optional<double>& step, double edge, const AutomaticOptions& options, const Tick& tick) {
+    const Sample sample = patches_of(faces, positions, near, fast_patches, fast_size);
+    const Incidence sample_at = vertex_faces(sample.faces, static_cast<Index>(sample.positions.size()));
+    const Neighbours sample_near = neighbours(sample.faces, sample_at);
+    Plan plan = plan_of(sample.faces, sample.positions, sample_at, sample_near, step, edge, options, tick);
+    Measured& m = plan.measured;
+    m.start = m.spikes > 0 ? without_impulses(faces, positions, at, near, m.spikes) : positions;
+    if (!m.is_certain(edge)) return plan;
+    m.deviation = deviations(faces, m.start, near, m.noise, edge);
+    plan.within = relax_within_surface(faces, m.start, near, m.within(options.strength), edge, &plan.within);
+    return plan;
+}
+
 }  // namespace
 
 Positions denoise_automatically(const Faces& faces, const Positions& positions, const AutomaticOptions& options,
@@ -331,44 +361,32 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     const Index count = static_cast<Index>(positions.size());
     const Incidence at = vertex_faces(faces, count);
     const Neighbours near = neighbours(faces, at);
-    stats.edge = mean_edge_length(faces, positions);
-    std::optional<SurfaceNoise> rounded;
-    if (!options.deviation) {
-        const std::optional<double> step = lattice_step(positions, least_step * stats.edge);
-        if (step) rounded = rounding_noise(faces, positions, at, near, *step, stats.edge);
-        if (rounded) stats.step = *step;
-    }
-    tick(0.05, "Looking for impulsive noise");
-    Positions start = rounded ? positions : without_impulses(faces, positions, at, near, stats.spikes);
-    tick(0.1, "Measuring the noise");
-    SurfaceNoise noise = rounded ? *rounded : surface_noise(faces, start, at, near, stats.edge);
-    if (options.deviation) {
-        noise.along_normals = noise.at_least = *options.deviation;
-        noise.white = 1;
-        noise.axis.reset();
-    }
-    Assumed assumed;
-    assumed.deviation = deviations(faces, start, near, noise, stats.edge);
-    noise.along_normals = root_mean_square(assumed.deviation);
-    assumed.certain = noise.along_normals > 0 ? std::pow(noise.at_least / noise.along_normals, 2) : 0;
-    noise.along_normals *= options.strength;
-    stats.deviation = noise.along_normals;
-    stats.axis = noise.axis.has_value();
-    if (!(assumed.certain * noise.along_normals > rounding * stats.edge)) return start;
+    const double edge = stats.edge = mean_edge_length(faces, positions);
+    std::optional<double> step;
+    if (!options.deviation) step = lattice_step(positions, least_step * edge);
+    const bool fast = options.fast && count > whole_up_to;
+    const Plan plan = (fast ? sampled_plan : plan_of)(faces, positions, at, near, step, edge, options, tick);
+    const auto& [found, within] = plan;
+    const double deviation = stats.deviation = options.strength * found.along_normals;
+    if (found.rounded) stats.step = *step;
+    stats.spikes = found.spikes;
+    stats.axis = found.noise.axis.has_value();
+    if (!found.is_certain(edge)) return found.start;
 
-    tick(0.2, "Looking for noise within the surface");
-    const WithinSurface within = relax_within_surface(faces, start, near, noise, stats.edge);
     tick(0.25, "Choosing");
-    const double in_edges = noise.along_normals / stats.edge;
-    assumed.factor = allowance(in_edges, count) * (rounded ? 1 + terraces * in_edges : 1);
-    assumed.white = noise.white;
-    assumed.normal_steps = normal_steps(in_edges);
+    Assumed assumed;
+    assumed.certain = found.certain;
+    assumed.white = found.noise.white;
+    assumed.factor = allowance(deviation / edge, count) * (found.rounded ? 1 + terraces * deviation / edge : 1);
+    assumed.normal_steps = normal_steps(deviation / edge);
+    assumed.deviation = found.deviation;
     for (double& d : assumed.deviation) d *= options.strength * assumed.factor;
-    const Choice choice = choose_on_sample(faces, shifted(start, within, Shares()), at, near, assumed,
-                                           [&](double f) { tick(0.25 + 0.4 * f, "Choosing"); });
-    if (!(choice.safe > 0)) return start;
+    const Choice choice =
+        choose_on_sample(faces, shifted(found.start, within, Shares()), at, near, assumed,
+                         fast ? fast_patches : patches, [&](double f) { tick(0.25 + 0.4 * f, "Choosing"); });
+    if (!(choice.safe > 0)) return found.start;
     const Shares shares = safe_shares(within, choice);
-    const Positions relaxed = shifted(start, within, shares);
+    const Positions relaxed = shifted(found.start, within, shares);
     const Prepared p = prepared(faces, relaxed, at, near, assumed.normal_steps);
     const CandidateMaker maker(faces, relaxed, at, near, p.normal, p.weight, assumed.deviation);
     stats.weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all_candidates().size()));
@@ -377,7 +395,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     stats.rms_before = std::sqrt(choice.before + within.before * within.before * within.noisy);
     stats.rms_after = std::sqrt(choice.after + error_within(within, shares));
     Positions after = maker.blend(stats.weights, [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
-    if (rounded) keep_within_cells(positions, stats.step, after);
+    if (found.rounded) keep_within_cells(positions, stats.step, after);
     stats.edge = mean_edge_length(faces, after);
     return after;
 }

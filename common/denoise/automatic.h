@@ -10,6 +10,7 @@ namespace multires {
 struct AutomaticOptions {
     double strength = 1;              ///< > 0; factor for the deviation of the noise
     std::optional<double> deviation;  ///< of the noise along the normals, mesh units, instead of an estimate
+    bool fast = false;                ///< large meshes are measured on patches, too, and chosen for on fewer
 };
 
 /// What was found and done, for the report.

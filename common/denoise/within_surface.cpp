@@ -133,6 +133,12 @@ void judge(const Faces& faces, const Positions& p, const Positions& more, const 
     out.likely = out.perhaps && noise.likely_all && folded >= 0.6 * expected;
 }
 
+void add_blend(const std::vector<Positions>& shift, WithinSurface& out) {
+    for (std::size_t k = 0; k < shift.size(); ++k)
+        for (std::size_t i = 0; i < shift[k].size(); ++i)
+            out.smoothing[i] += out.weights[static_cast<Eigen::Index>(k)] * shift[k][i];
+}
+
 /// The blend of the low passes with the least estimated error.
 void smooth_noise(const Positions& p, const Positions& noise, const Neighbours& near, const Array<Vec3>& normal,
                   double deviation, std::vector<Positions>& shift, WithinSurface& out) {
@@ -151,11 +157,36 @@ void smooth_noise(const Positions& p, const Positions& noise, const Neighbours& 
         risk.linear[k] = mean_product(noise, other[k]) - mean_product(noise, shift[k]) + excess;
         for (int l = 0; l <= k; ++l) risk.quadratic(k, l) = risk.quadratic(l, k) = mean_product(shift[k], shift[l]);
     }
-    const Eigen::VectorXd t = least_risk(risk);
-    for (int k = 0; k < count; ++k)
-        for (std::size_t i = 0; i < p.size(); ++i) out.smoothing[i] += t[k] * shift[k][i];
+    out.weights = least_risk(risk);
+    add_blend(shift, out);
     out.before = std::sqrt(risk.constant);
-    out.after = std::sqrt(std::max(0.0, risk.at(t)));
+    out.after = std::sqrt(std::max(0.0, risk.at(out.weights)));
+}
+
+/// The blend that was found on a sample.
+void smooth_as_there(const Positions& p, const Neighbours& near, const Array<Vec3>& normal, const WithinSurface& there,
+                     WithinSurface& out) {
+    out = there;
+    out.smoothing = Positions(p.size(), Vec3::Zero());
+    Eigen::Index levels = there.weights.size();
+    while (levels > 0 && !(there.weights[levels - 1] > 0)) --levels;
+    std::vector<Positions> shift;
+    smooth_within(p, near, normal, static_cast<std::size_t>(levels), shift);
+    add_blend(shift, out);
+}
+
+/// Looks for noise within the surface and for the blend that removes it.
+void find_noise(const Faces& faces, const Positions& p, const Neighbours& near, const Array<Vec3>& normal,
+                const SurfaceNoise& noise, double edge, WithinSurface& out) {
+    const bool judged = noise.maybe_all && noise.along_normals >= 0.08 * edge;
+    if (!(noise.all_directions || noise.likely_all || judged)) return;
+    const Positions more = noise_within(p, near, normal, noise.along_normals);
+    std::vector<Positions> low;
+    smooth_within(p, near, normal, even_sampling + 1, low);
+    out.noisy = noise.all_directions;
+    if (judged && !out.noisy) judge(faces, p, more, low[even_sampling], normal, noise, out);
+    if (!judged && !out.noisy) out.perhaps = out.likely = true;
+    if (out.noisy || out.perhaps) smooth_noise(p, more, near, normal, noise.along_normals, low, out);
 }
 
 }  // namespace
@@ -170,11 +201,12 @@ double mean_square(const Positions& p) {
 }
 
 WithinSurface relax_within_surface(const Faces& faces, const Positions& positions, const Neighbours& near,
-                                   const SurfaceNoise& noise, double edge) {
+                                   const SurfaceNoise& noise, double edge, const WithinSurface* as_there) {
     WithinSurface out;
     out.smoothing = out.turning = Positions(positions.size(), Vec3::Zero());
     const double deviation = noise.along_normals;
-    if (!(deviation > 0)) return out;
+    const bool nothing = as_there && as_there->weights.size() == 0 && !as_there->turned;
+    if (!(deviation > 0) || nothing) return out;
     const bool weak = deviation < 0.1 * edge;
     const Array<Vec3> normal = vertex_normals(faces, taubin(near, positions, weak ? 8 : 20));
     std::vector<double> h(3 * positions.size(), 0);
@@ -182,25 +214,21 @@ WithinSurface relax_within_surface(const Faces& faces, const Positions& position
     Positions p = positions;
     for (std::size_t i = 0; i < p.size(); ++i) p[i] += h[3 * i] * normal[i];
 
-    const bool judged = noise.maybe_all && deviation >= 0.08 * edge;
-    if (noise.all_directions || noise.likely_all || judged) {
-        const Positions more = noise_within(p, near, normal, deviation);
-        std::vector<Positions> low;
-        smooth_within(p, near, normal, even_sampling + 1, low);
-        out.noisy = noise.all_directions;
-        if (judged && !out.noisy) judge(faces, p, more, low[even_sampling], normal, noise, out);
-        if (!judged && !out.noisy) out.perhaps = out.likely = true;
-        if (out.noisy || out.perhaps) smooth_noise(p, more, near, normal, deviation, low, out);
-    }
+    if (as_there)
+        smooth_as_there(p, near, normal, *as_there, out);
+    else
+        find_noise(faces, p, near, normal, noise, edge, out);
     Positions q = p;
     for (std::size_t i = 0; i < p.size(); ++i) q[i] += out.smoothing[i];
     const Positions r =
         turned_back(faces, q, near, normal, out.noisy || deviation > 0.15 * edge ? Bad{0.8, 0.0577} : Bad{0.5, 0.03});
     const double farthest = farthest_turned * deviation;
+    out.turning.resize(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) {
         out.turning[i] = r[i] - q[i];
         const double length = out.turning[i].norm();
         if (length > farthest) out.turning[i] *= farthest / length;
+        out.turned |= length > 0;
     }
     return out;
 }

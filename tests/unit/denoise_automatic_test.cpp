@@ -244,16 +244,31 @@ TEST(AutomaticDenoise, ChangesNoBitAtStrengthZero) {
 }
 
 TEST(AutomaticDenoise, GivesTheSameBitsOnPatchesOfALargeMesh) {
-    const Mesh mesh = noisy(shapes::irregular_sphere(26000), Model::along_normals, 0.2);
-    Positions first;
-    for (const int threads : {1, 3}) {
-        const Threads scope(threads);
-        const Positions p = denoised(mesh);
-        if (threads == 1)
-            first = p;
-        else
-            EXPECT_EQ(p, first);
+    const Mesh truth = shapes::irregular_sphere(26000), mesh = noisy(truth, Model::all_directions, 0.2);
+    std::array<double, 2> angle{};
+    for (const bool fast : {false, true}) {
+        DenoiseOptions options;
+        options.fast = fast;
+        Positions first;
+        for (const int threads : {1, 3}) {
+            const Threads scope(threads);
+            const Positions p = denoised(mesh, options);
+            if (threads == 1)
+                first = p;
+            else
+                EXPECT_EQ(p, first);
+        }
+        angle[fast] = mean_normal_angle(truth.faces, truth.positions, first);
     }
+    EXPECT_LT(angle[1], 1.2 * angle[0]);
+    EXPECT_NE(angle[1], angle[0]);
+}
+
+TEST(AutomaticDenoise, FastIsTheSameOnSmallMeshes) {
+    const Mesh mesh = noisy(shapes::torus(40, 18), Model::along_normals, 0.2);
+    DenoiseOptions options;
+    options.fast = true;
+    EXPECT_EQ(denoised(mesh, options), denoised(mesh));
 }
 
 TEST(AutomaticDenoise, StopsWhenTold) {

@@ -41,6 +41,7 @@ struct DenoiseOptions {
     bool per_level = true;     ///< thresholding, automatic: a threshold for each subband; otherwise one for all
     bool normal_only = false;  ///< thresholding: only the part of a detail along the normal
     int cycle_spins = 1;       ///< thresholding: mean over so many different hierarchies, 1..64
+    bool fast = false;         ///< automatic: large meshes are measured and chosen for on a few parts of them
     bool keep_volume = false;  ///< shift along the normals until the volume is that of the input
     /// Vertex quality as confidence: 1 is trusted and stays, 0 gets the full threshold; clamped to [0, 1].
     bool confidence = false;

@@ -77,6 +77,7 @@ Positions by_automatic(const Layer& layer, const DenoiseOptions& o, double given
     if (o.strength > 0) {
         AutomaticOptions options;
         options.strength = o.strength;
+        options.fast = o.fast;
         if (o.unit != ThresholdUnit::automatic) options.deviation = given;
         const Progress part = session.progress.part(0, 0.97);
         after = denoise_automatically(layer.mesh.faces, layer.mesh.positions, options, stats,
