@@ -52,6 +52,7 @@ struct Directions {
     bool none() const {
         return !ring_.regular() || (ring_.closed() ? features_ != 0 && features_ != 2 : features_ != 0);
     }
+    bool all() const { return ring_.closed() && features_ == 0; }
     bool allows(Index j) const {
         if (!ring_.closed()) return j == 0 || j == ring_.size - 1;
         return features_ == 0 || ring_.marked(j);
@@ -71,13 +72,15 @@ inline Quadric vertex_quadric(Index v, const Ring& ring, const Positions& p, dou
         const Vec3 a = p[ring.vertex[j]] - p[v], b = p[ring.after(j)] - p[v], n = a.cross(b);
         const double length = n.norm();
         if (length > 0) q.add_plane(n, length);
-        const bool at_start = !ring.closed() && j == 0, at_end = !ring.closed() && j == triangles - 1;
-        for (const Vec3& edge : {at_start ? a : Vec3(0, 0, 0), at_end ? b : Vec3(0, 0, 0)}) {
+        if (ring.closed() || !(length > 0)) continue;
+        const auto add_side = [&](const Vec3& edge) {
             const Vec3 side = edge.cross(n);  // |side| = |edge| |n|; the plane counts as |edge|^2
             const double norm = side.norm();
             const double weight = boundary_weight * edge.squaredNorm();
             if (norm > 0) q.add_plane(side * (weight / norm), weight);
-        }
+        };
+        if (j == 0) add_side(a);
+        if (j == triangles - 1) add_side(b);
     }
     return q;
 }

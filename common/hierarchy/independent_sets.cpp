@@ -5,6 +5,7 @@
 #include "base/radix_sort.h"
 #include "base/reduce.h"
 #include "hierarchy/collapse.h"
+#include "hierarchy/fresh_costs.h"
 #include "hierarchy/placement.h"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ using collapse::ring_of;
 struct State {
     Rings rings;
     Positions positions;
-    Array<Quadric> quadric;
+    Array<Quadric> quadric;  ///< none if costs are memoryless
     Array<double> error;  ///< quadric[i].c once more: all that is read of a neighbour's, and small enough to stay near
 };
 
@@ -49,32 +50,53 @@ Array<Quadric> vertex_quadrics(const Rings& rings, const Positions& positions, d
     return q;
 }
 
-/// The cost of v -> ring(v)[j], which decides between targets.
-double target_cost(const State& s, Index v, Index j, const HierarchyOptions& options) {
-    const Ring ring = ring_of(s.rings, v);
-    const Index u = ring.vertex[j];
-    return options.split == Split::regression_plane
-               ? collapse::sum_of_turns(v, u, ring, s.positions)
-               : collapse::cost(s.quadric[v], s.error[u], s.positions[u] - s.positions[v], options.length_weight);
-}
+/// The costs of v -> ring(v)[j], which decide between targets.
+class Costs {
+public:
+    Costs(const State& s, Index v, const Ring& ring, const HierarchyOptions& options)
+        : s_(s), v_(v), ring_(ring), options_(options) {
+        if (options.split != Split::quadric) return;
+        quadric_ =
+            options.memoryless ? collapse::vertex_quadric(v, ring, s.positions, options.boundary_weight) : s.quadric[v];
+    }
+
+    double operator[](Index j) const {
+        const Index u = ring_.vertex[j];
+        if (options_.split == Split::regression_plane) return collapse::sum_of_turns(v_, u, ring_, s_.positions);
+        const double target_error = options_.memoryless ? 0 : s_.error[u];
+        return collapse::cost(quadric_, target_error, s_.positions[u] - s_.positions[v_], options_.length_weight);
+    }
+
+private:
+    const State& s_;
+    Index v_;
+    const Ring& ring_;
+    const HierarchyOptions& options_;
+    Quadric quadric_;
+};
 
 Candidates rank_vertices(const State& s, const HierarchyOptions& options) {
     const Index n = s.rings.rows();
     Candidates c;
     c.key.resize(n);
     c.target.resize(n);
+    const bool fresh = options.split == Split::quadric && options.memoryless;
     parallel_for(n, [&](Index v) {
         c.key[v] = never;
         const Ring ring = ring_of(s.rings, v);
         const Directions directions(ring);
         if (directions.none()) return;
         double least = std::numeric_limits<double>::infinity();
-        for (Index j = 0; j < ring.size; ++j) {
-            if (!directions.allows(j)) continue;
-            const double cost = target_cost(s, v, j, options);
-            if (cost < least) least = cost, c.target[v] = j;
+        if (fresh && collapse::FreshCosts::takes(ring) && directions.all()) {
+            const collapse::FreshCosts costs(v, ring, s.positions, options.length_weight);
+            c.target[v] = costs.cheapest();
+            least = costs[c.target[v]];
+        } else {
+            const Costs costs(s, v, ring, options);
+            for (Index j = 0; j < ring.size; ++j)
+                if (const double cost = costs[j]; directions.allows(j) && cost < least) least = cost, c.target[v] = j;
         }
-        if (least == std::numeric_limits<double>::infinity()) return;
+        if (!(least < std::numeric_limits<double>::infinity())) return;
         if (options.split == Split::regression_plane)
             least = collapse::distance_from_ring(v, ring, directions, s.positions);
         c.key[v] = radix_key(static_cast<float>(least * collapse::jitter(v, options.seed)));
@@ -91,8 +113,9 @@ Candidates rank_vertices(const State& s, const HierarchyOptions& options) {
 /// that their seams leave no trace in the levels.
 class Selection {
 public:
-    /// @param strict  no collapse costs more than the step's limit: where the cheapest target is barred, others that do
-    ///                are not taken, and nothing if all of the share are barred
+    /// No collapse costs more than the step's limit: none to another target than the cheapest, either, if that is
+    /// barred.
+    /// @param strict  not even if hardly any may be taken
     Selection(const State& s, const HierarchyOptions& options, bool strict)
         : s_(s), options_(options), share_(options.set_share),
           strict_(strict), limits_{std::cos(radians(options.normal_limit_degrees))}, degree_(s.rings.rows()),
@@ -103,7 +126,7 @@ public:
     void run(const Candidates& candidates, Budget most, bool shifted) {
         const Index n = s_.rings.rows();
         const std::uint32_t limit = share_ < 1 ? key_of_share(candidates.key) : never;
-        most_of_others_ = strict_ ? limit : never;
+        most_of_others_ = limit;
         // Only large meshes are cut, where `most` is far away.
         const bool far = most.vertices > n / 2 && most.faces > n;
         const Index parts = far ? std::clamp<Index>(n / least_part, 1, most_parts) : 1;
@@ -115,7 +138,7 @@ public:
             [&](Index part) {
                 const Index begin = std::max<Index>(0, part * width - shift);
                 const Index end = std::min(n, (part + 1) * width - shift);
-                odd[part] = pick(sorted_inside(begin, end, candidates, seams[part]), candidates, limit, most);
+                odd[part] = pick(sorted_inside(begin, end, candidates, limit, seams[part]), candidates, limit, most);
             },
             1);
         for (const Index count : odd) odd_ += count;
@@ -125,9 +148,9 @@ public:
         for (const std::vector<Index>& seam : seams)
             for (const Index v : seam)
                 if (state_[v] == free) rest.push_back(v);
-        odd_ += pick(sorted_by_key(std::move(rest), candidates.key), candidates, limit, most);
-        if (odd_ == 0 && limit != never && !strict_)  // none of the share may go: whichever is the first to may
-            odd_ = pick(sorted_by_key(candidates.key, never), candidates, never, {1, no_limit});
+        const Index odd_in_seams = pick(sorted_by_key(std::move(rest), candidates.key), candidates, limit, most);
+        odd_ += odd_in_seams;
+        if (limit != never && !strict_) take_more(candidates, {most.vertices - odd_in_seams, most.faces}, limit);
     }
 
     Index odd() const { return odd_; }
@@ -146,17 +169,28 @@ private:
     enum : std::uint8_t { free = 0, locked = 1, target = 2 };
     static constexpr Index least_part = 8192, most_parts = 16;
 
-    /// The candidates of a range in order of cost; those whose rings leave it go to `seam`.
-    std::vector<Index> sorted_inside(Index begin, Index end, const Candidates& c, std::vector<Index>& seam) const {
+    /// The candidates of a range up to a cost, in order of cost; those whose rings leave it go to `seam`.
+    std::vector<Index> sorted_inside(Index begin, Index end, const Candidates& c, std::uint32_t limit,
+                                     std::vector<Index>& seam) const {
         const bool whole = begin == 0 && end == s_.rings.rows();
         std::vector<Index> inside;
         for (Index v = begin; v < end; ++v) {
-            if (c.key[v] == never) continue;
+            if (c.key[v] == never || c.key[v] > limit) continue;
             const auto in = [&](Index w) { return w >= begin && w < end; };
             const Index* const ring = s_.rings.begin(v);
             (whole || std::all_of(ring, ring + s_.rings.size(v), in) ? inside : seam).push_back(v);
         }
         return sorted_by_key(std::move(inside), c.key);
+    }
+
+    /// Where too few of the share may go to their cheapest targets: they may go to others. If none may, whichever is
+    /// the first to may.
+    void take_more(const Candidates& candidates, Budget most, std::uint32_t limit) {
+        if (64 * odd_ >= s_.rings.rows()) return;
+        most_of_others_ = never;
+        const std::vector<Index> sorted = sorted_by_key(candidates.key, never);
+        odd_ += pick(sorted, candidates, limit, most);
+        if (odd_ == 0) odd_ = pick(sorted, candidates, never, {1, no_limit});
     }
 
     /// The largest cost among the cheapest share of the candidates.
@@ -191,9 +225,10 @@ private:
         // The cheapest target is barred; try the others in order of cost.
         others.clear();
         const Directions directions(ring);
+        const Costs costs(s_, v, ring, options_);
         for (Index j = 0; j < ring.size; ++j) {
             if (j == best || !directions.allows(j)) continue;
-            const double cost = target_cost(s_, v, j, options_);
+            const double cost = costs[j];
             if (radix_key(static_cast<float>(cost)) <= most_of_others_) others.push_back({cost, j});
         }
         std::sort(others.begin(), others.end());
@@ -274,8 +309,7 @@ State next_state(const State& s, const Step& step, const Array<Index>& degree, c
     t.rings.kind.resize(m);
     t.rings.offset.resize(m + 1);
     t.positions.resize(m);
-    t.quadric.resize(m);
-    t.error.resize(m);
+    if (!options.memoryless) t.quadric.resize(m), t.error.resize(m);
     for (Index i = 0; i < n; ++i)
         if (step.code[i] >= 0) t.rings.offset[step.code[i] + 1] = t.rings.offset[step.code[i]] + degree[i];
     t.rings.neighbor.resize(t.rings.offset[m]);
@@ -293,7 +327,6 @@ State next_state(const State& s, const Step& step, const Array<Index>& degree, c
             if (has_features) t.rings.feature[at] = mark;
             t.rings.neighbor[at++] = step.code[x];
         });
-        t.error[to] = 0;
         if (options.memoryless) return;
         Quadric q = s.quadric[i];
         for (Index j = 0; j < old.size; ++j) {
@@ -306,7 +339,6 @@ State next_state(const State& s, const Step& step, const Array<Index>& degree, c
     if (move)
         move_vertices(s.rings, s.positions, step, std::cos(radians(options.normal_limit_degrees)), t.rings,
                       t.positions);
-    if (options.memoryless) t.quadric = vertex_quadrics(t.rings, t.positions, options.boundary_weight);
     return t;
 }
 
@@ -339,8 +371,10 @@ std::vector<Step> steps_of(State& s, const HierarchyOptions& options, Index face
 
 State state_of(Rings rings, Positions positions, const HierarchyOptions& options) {
     State s;
-    s.quadric = vertex_quadrics(rings, positions, options.boundary_weight);
-    s.error.assign(s.quadric.size(), 0);
+    if (!options.memoryless) {
+        s.quadric = vertex_quadrics(rings, positions, options.boundary_weight);
+        s.error.assign(s.quadric.size(), 0);
+    }
     s.rings = std::move(rings);
     s.positions = std::move(positions);
     return s;

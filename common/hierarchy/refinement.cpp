@@ -1,5 +1,7 @@
 #include "hierarchy/refinement.h"
 
+#include "base/radix_sort.h"
+
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -25,11 +27,12 @@ Insertion insertion_order(const Hierarchy& h, std::vector<double> importance) {
         }
     const Index base = h.size.back();
     std::fill_n(out.key.begin(), base, std::numeric_limits<double>::infinity());
+    Array<std::uint64_t> falling(h.vertices());
+    std::transform(out.key.begin(), out.key.end(), falling.begin(), falling_radix_key);
     out.order.resize(h.vertices());
     std::iota(out.order.begin(), out.order.end(), 0);
-    // Equal keys in order of places, which dependencies follow.
-    std::sort(out.order.begin() + base, out.order.end(),
-              [&](Index a, Index b) { return out.key[a] != out.key[b] ? out.key[a] > out.key[b] : a < b; });
+    // Equal keys in order of places, which dependencies follow; so the base stays in front.
+    out.order = sorted_by_key(std::move(out.order), falling);
     return out;
 }
 

@@ -1,4 +1,5 @@
 #include "hierarchy/collapse.h"
+#include "hierarchy/fresh_costs.h"
 #include "hierarchy/hierarchy.h"
 
 #include "hierarchy_checks.h"
@@ -73,6 +74,31 @@ TEST_P(EveryHierarchy, KeepsTopologyWithFeatures) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Groupings, EveryHierarchy, testing::Range(0, 4));
+
+/// All costs of a vertex at once are those of its quadric, and the cheapest is the first of the least.
+TEST(Hierarchy, FreshCostsAreThoseOfTheQuadric) {
+    int taken = 0;
+    for (const auto& [name, mesh] : fixtures::every_class()) {
+        SCOPED_TRACE(name);
+        const Rings rings = vertex_rings(mesh);
+        for (Index v = 0; v < rings.rows(); ++v) {
+            const collapse::Ring ring = collapse::ring_of(rings, v);
+            if (!collapse::FreshCosts::takes(ring)) continue;
+            ++taken;
+            const Quadric q = collapse::vertex_quadric(v, ring, mesh.positions);
+            const collapse::FreshCosts costs(v, ring, mesh.positions, 0.1);
+            Index cheapest = 0;
+            for (Index j = 0; j < ring.size; ++j) {
+                const Vec3 d = mesh.positions[ring.vertex[j]] - mesh.positions[v];
+                const double expected = collapse::cost(q, 0, d, 0.1);
+                ASSERT_NEAR(costs[j], expected, 1e-14 * q.weight() * d.squaredNorm());
+                if (costs[j] < costs[cheapest]) cheapest = j;
+            }
+            ASSERT_EQ(costs.cheapest(), cheapest);
+        }
+    }
+    EXPECT_GT(taken, 1000);
+}
 
 TEST(Hierarchy, RegressionPlaneEmptiesFlatPartsFirst) {
     const Mesh mesh = shapes::block(16);

@@ -103,6 +103,20 @@ TEST(RadixSort, SortsStablyAndLeavesOut) {
     EXPECT_EQ(sorted_by_key({out - 1, 0, out - 1}, out), (std::vector<Index>{1, 0, 2}));
 }
 
+TEST(RadixSort, SixtyFourBitsSortFallingNumbersInStableOrder) {
+    shapes::Random random(41);
+    std::vector<double> value(2000);
+    for (double& x : value) x = random.chance(0.2) ? 0.25 * (random.bits() % 4) : std::exp(random.uniform(-700, 700));
+    value[7] = std::numeric_limits<double>::infinity();
+    Array<std::uint64_t> key(value.size());
+    std::transform(value.begin(), value.end(), key.begin(), falling_radix_key);
+    std::vector<Index> indices(value.size());
+    std::iota(indices.begin(), indices.end(), 0);
+    std::vector<Index> expected = indices;
+    std::stable_sort(expected.begin(), expected.end(), [&](Index a, Index b) { return value[a] > value[b]; });
+    EXPECT_EQ(sorted_by_key(indices, key), expected);
+}
+
 TEST(RadixSort, KeysOrderLikeFloats) {
     const float values[] = {0.0f,
                             std::numeric_limits<float>::denorm_min(),

@@ -95,7 +95,7 @@ std::vector<std::uint8_t> seam_edges(const Layer& layer) {
 class Reconstructor {
 public:
     Reconstructor(const Layer& layer, const AdaptiveOptions& options, const Hierarchy& h, const Insertion& insertion)
-        : layer_(layer), options_(options), h_(h), insertion_(insertion) {}
+        : layer_(layer), options_(options), h_(h), insertion_(insertion), region_(selected_region(layer)) {}
 
     Reconstruction make(Index count, bool measure) const {
         Reconstruction r;
@@ -111,7 +111,8 @@ public:
             index_of[p] = static_cast<Index>(r.mesh.source_vertex.size());
             r.mesh.source_vertex.push_back(v);
             r.positions.push_back(layer_.mesh.positions[v]);
-            fixed.push_back(options_.region_of_interest && std::isinf(insertion_.key[p]) && p >= h_.size.back());
+            const bool kept = p >= h_.size.back() ? std::isinf(insertion_.key[p]) : region_[v] != 0;
+            fixed.push_back(options_.region_of_interest && kept);
         }
         for (Face& f : mesh.faces) f = {index_of[f[0]], index_of[f[1]], index_of[f[2]]};
         r.mesh.faces = std::move(mesh.faces);
@@ -147,6 +148,7 @@ private:
     const AdaptiveOptions& options_;
     const Hierarchy& h_;
     const Insertion& insertion_;
+    std::vector<std::uint8_t> region_;
 };
 
 void report_thresholds(AdaptiveOptions o, double scale, Report& report) {

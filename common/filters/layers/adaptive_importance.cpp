@@ -2,6 +2,7 @@
 
 #include "base/angles.h"
 #include "base/parallel.h"
+#include "filters/layers/adaptive_search.h"
 #include "hierarchy/collapse.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
@@ -154,16 +155,21 @@ void require_selection(const Layer& layer) {
 
 void keep_selection(const Layer& layer, const Hierarchy& h, std::vector<double>& importance) {
     require_selection(layer);
-    std::vector<std::uint8_t> keep(h.vertices(), 0);
-    for (std::size_t v = 0; v < layer.selected_vertex.size(); ++v) keep[v] = layer.selected_vertex[v];
-    for (std::size_t f = 0; f < layer.selected_face.size(); ++f)
-        if (layer.selected_face[f])
-            for (const Index v : layer.mesh.faces[f]) keep[v] = 1;
+    const std::vector<std::uint8_t> keep = selected_region(layer);
     for (Index p = 0; p < h.vertices(); ++p)
         if (keep[h.order[p]]) importance[p] = infinity;
 }
 
 }  // namespace
+
+std::vector<std::uint8_t> selected_region(const Layer& layer) {
+    std::vector<std::uint8_t> in(layer.mesh.positions.size(), 0);
+    for (std::size_t v = 0; v < layer.selected_vertex.size(); ++v) in[v] = layer.selected_vertex[v];
+    for (std::size_t f = 0; f < layer.selected_face.size(); ++f)
+        if (layer.selected_face[f])
+            for (const Index v : layer.mesh.faces[f]) in[v] = 1;
+    return in;
+}
 
 std::vector<double> importance(const Layer& layer, const Hierarchy& h, const AdaptiveOptions& o) {
     std::vector<double> largest(h.vertices(), 0);

@@ -60,6 +60,9 @@ std::optional<Result> moving_reconstruction(const Layer& layer, const AdaptiveOp
 /// @param with_positions  they are not the input's
 Result result_of(Reconstruction r, const Layer& layer, bool with_positions, Report report);
 
+/// #V, 1: selected, or a corner of a selected face.
+std::vector<std::uint8_t> selected_region(const Layer& layer);
+
 /// Rings of the layer, with features and seams marked.
 Rings adaptive_rings(const Layer& layer, const AdaptiveOptions& options);
 
