@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <stdexcept>
 
@@ -16,16 +17,41 @@ constexpr double fine_share = 0.44;        ///< of the vertices that fine sets l
 constexpr double outside_share = 0.016;    ///< of those outside a region that are there when the region is whole
 constexpr double least_batch = 0.01;       ///< of the vertices that are there
 
+/// Which vertices are regular in a StarMesh: those whose faces are the triangles of their rings, all turning the same
+/// way.
+std::vector<std::uint8_t> turn_alike(const Faces& faces, const Rings& rings) {
+    const std::size_t count = rings.kind.size();
+    std::vector<Index> turns(count, 0), corners(count, 0);
+    for (const Face& f : faces)
+        for (int k = 0; k < 3; ++k) {
+            const Index v = f[k], size = rings.size(v);
+            ++corners[v];
+            const Index* const ring = rings.begin(v);
+            const Index j = static_cast<Index>(std::find(ring, ring + size, f[(k + 1) % 3]) - ring);
+            if (j == size) continue;
+            const bool closed = rings.kind[v] == RingKind::closed;
+            const Index after = j + 1 < size ? ring[j + 1] : closed ? ring[0] : -1;
+            const Index before = j > 0 ? ring[j - 1] : closed ? ring[size - 1] : -1;
+            turns[v] += static_cast<int>(after == f[(k + 2) % 3]) - static_cast<int>(before == f[(k + 2) % 3]);
+        }
+    std::vector<std::uint8_t> out(count);
+    for (std::size_t v = 0; v < count; ++v) {
+        const Index triangles = rings.size(static_cast<Index>(v)) - (rings.kind[v] == RingKind::closed ? 0 : 1);
+        out[v] = corners[v] == triangles && std::abs(turns[v]) == triangles;
+    }
+    return out;
+}
+
 /// Rings of the vertices that may be split off again: the others are irregular here and stay.
 /// @param stay  #V: 1 for others that stay; empty: none
 Rings removable(const Mesh& mesh, const std::vector<std::uint8_t>& stay) {
     Rings rings = vertex_rings(mesh);
-    const StarMesh stars(static_cast<Index>(mesh.positions.size()), mesh.faces);
+    const std::vector<std::uint8_t> alike = turn_alike(mesh.faces, rings);
     Rings out;
     out.kind = rings.kind;
     for (Index v = 0; v < rings.rows(); ++v) {
         const bool regular = rings.kind[v] == RingKind::closed || rings.kind[v] == RingKind::open;
-        if (regular && stars.regular(v) && (stay.empty() || !stay[v]))
+        if (regular && alike[v] && (stay.empty() || !stay[v]))
             out.neighbor.insert(out.neighbor.end(), rings.begin(v), rings.begin(v) + rings.size(v));
         else if (regular)
             out.kind[v] = RingKind::irregular;
