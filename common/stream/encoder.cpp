@@ -127,7 +127,7 @@ private:
             ++visits_;
             while (source_.size() < static_cast<std::size_t>(progress_->mesh().vertices()))
                 source_.push_back(plan_->source(static_cast<Index>(source_.size())));
-            if (coder_.bytes() >= std::max<std::size_t>(least_piece, body_.bytes().size() / 5))
+            if (coder_.bytes() >= std::max<std::size_t>(least_piece, body_.bytes().size() / 4))
                 write_splits(batch, done / progress_->batch_size());
         }
         const bool finer_next = bits_less(batch + 1) < plan_->bits_less;
