@@ -260,12 +260,17 @@ Positions shifted(const Positions& p, const WithinSurface& within, const Shares&
 /// Mean square error within the surface after the shifts, as far as it is known.
 double error_within(const WithinSurface& within, const Shares& shares) {
     const double turned = shares.turning * shares.turning * mean_square(within.turning);
-    if (within.noisy) {
+    if (within.noisy || within.likely) {
         const double left = (1 - shares.smoothing) * (1 - shares.smoothing);
         return within.after * within.after + left * (within.before * within.before - within.after * within.after) +
                turned;
     }
     return shares.smoothing * shares.smoothing * mean_square(within.smoothing) + turned;
+}
+
+/// Factor for an error that is estimated along normals that do not move: noise tilts them.
+double tilted(double share, double deviation_in_edges) {
+    return 1 + share * std::pow(std::min(deviation_in_edges, 0.3), 2);
 }
 
 /// Impulses are set back, unless the surface is rough everywhere.
@@ -392,8 +397,12 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     stats.weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all_candidates().size()));
     stats.weights.head(choice.weights.size()) = choice.weights;
     stats.all_directions = within.noisy;
-    stats.rms_before = std::sqrt(choice.before + within.before * within.before * within.noisy);
-    stats.rms_after = std::sqrt(choice.after + error_within(within, shares));
+    // What keeps creases follows the normals.
+    const double height = tilted(1 - sharp_share(choice.weights), deviation / edge),
+                 side = tilted(1.5, deviation / edge);
+    const bool around = within.noisy || within.likely;
+    stats.rms_before = std::sqrt(choice.before + (around ? within.before * within.before : 0));
+    stats.rms_after = std::sqrt(height * height * choice.after + side * side * error_within(within, shares));
     Positions after = maker.blend(stats.weights, [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
     if (found.rounded) keep_within_cells(positions, stats.step, after);
     stats.edge = mean_edge_length(faces, after);
