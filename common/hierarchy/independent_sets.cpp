@@ -9,6 +9,7 @@
 #include "hierarchy/placement.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 
 namespace multires {
@@ -194,12 +195,22 @@ private:
     }
 
     /// The largest cost among the cheapest share of the candidates.
-    std::uint32_t key_of_share(Array<std::uint32_t> keys) const {
-        keys.erase(std::remove(keys.begin(), keys.end(), never), keys.end());
-        if (keys.empty()) return never;
-        const double wanted = std::ceil(share_ * static_cast<double>(keys.size()));
-        const auto at = keys.begin() + std::max<std::ptrdiff_t>(0, static_cast<std::ptrdiff_t>(wanted) - 1);
-        std::nth_element(keys.begin(), at, keys.end());
+    std::uint32_t key_of_share(const Array<std::uint32_t>& keys) const {
+        constexpr int shift = 20;
+        std::array<std::size_t, 1 << (32 - shift)> count{};
+        for (const std::uint32_t key : keys) ++count[key >> shift];
+        const auto barred = static_cast<std::size_t>(std::count(keys.begin(), keys.end(), never));
+        count.back() -= barred;
+        if (keys.size() == barred) return never;
+        const double wanted = std::ceil(share_ * static_cast<double>(keys.size() - barred));
+        auto before = static_cast<std::size_t>(std::max(1.0, wanted)) - 1;  // of the one that is looked for
+        std::size_t bucket = 0;
+        while (before >= count[bucket]) before -= count[bucket++];
+        Array<std::uint32_t> inside;
+        for (const std::uint32_t key : keys)
+            if (key >> shift == bucket && key != never) inside.push_back(key);
+        const auto at = inside.begin() + static_cast<std::ptrdiff_t>(before);
+        std::nth_element(inside.begin(), at, inside.end());
         return *at;
     }
 

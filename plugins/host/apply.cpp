@@ -172,9 +172,14 @@ RichParameterList parameters(const Filter& filter, const MeshDocument& document)
 
 namespace {
 
-/// glibc keeps the blocks that are freed; what a filter used for a while goes back to the system.
+/// glibc keeps the blocks that are freed; what a filter used for a while goes back to the system, if it is much: little
+/// is there for the next filter, which would take longer to get it back than to use it.
 struct MemoryGoesBack {
     ~MemoryGoesBack() {
+#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
+        constexpr std::size_t much = 64 << 20;
+        if (mallinfo2().fordblks < much) return;
+#endif
 #ifdef __GLIBC__
         malloc_trim(0);
 #endif
