@@ -93,6 +93,7 @@ struct Assumed {
     double factor = 1;              ///< see allowance()
     double certain = 1;             ///< share of the variance that there is at least
     double white = 1;               ///< see SurfaceNoise
+    bool stairs = false;            ///< flat parts and creases are noise
     int normal_steps = 3;           ///< see normal_steps()
 };
 
@@ -141,16 +142,20 @@ double sharp_share(const Eigen::VectorXd& t) {
 
 /// Least risk of the normals, as long as the distances gain, too: a third of the noise, or half of what they could.
 /// Where most speaks for what keeps creases, nothing that rounds them is mixed in: squares make much of few vertices.
-Eigen::VectorXd weights_of(const Risks& r) {
+/// @param stairs  what keeps creases is no candidate
+Eigen::VectorXd weights_of(const Risks& r, bool stairs) {
     const double half = (r.heights.constant + r.heights.at(least_risk(r.heights))) / 2;
     const double limit = std::max(half, 0.7 * r.heights.constant);
     Eigen::VectorXd t;
+    const std::vector<std::uint8_t> sharp = sharp_candidates(r.edges.linear.size()), all(sharp.size(), 1);
+    std::vector<std::uint8_t> smooth = all;
+    for (std::size_t k = 0; k < sharp.size(); ++k) smooth[k] = !sharp[k];
     for (const double heights : {0.0, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0}) {
         const double e = 1 / r.edges.constant, h = heights / r.heights.constant;
         const Risk both = {e * r.edges.constant + h * r.heights.constant, e * r.edges.linear + h * r.heights.linear,
                            e * r.edges.quadratic + h * r.heights.quadratic};
-        t = least_risk(both);
-        if (sharp_share(t) > sharply) t = least_risk_of(both, sharp_candidates(t.size()));
+        t = least_risk_of(both, stairs ? smooth : all);
+        if (sharp_share(t) > sharply) t = least_risk_of(both, sharp);
         drop_small(t);
         if (r.heights.at(t) <= limit) break;
     }
@@ -185,11 +190,11 @@ Choice choose(const Faces& faces, const Positions& positions, const Incidence& a
     CandidateMaker::Responses responses = maker.responses([&](double f) { tick(0.8 * f); });
     Risks r = risks(near, responses.all, noise.deviation, maker.probe(), core);
     Choice choice;
-    choice.weights = weights_of(r);
+    choice.weights = weights_of(r, noise.stairs);
     if (sharp_share(choice.weights) > mostly) {
         maker.add_guided(responses, [&](double f) { tick(0.8 + 0.2 * f); });
         r = risks(near, responses.all, noise.deviation, maker.probe(), core);
-        choice.weights = weights_of(r);
+        choice.weights = weights_of(r, noise.stairs);
     }
     const double removed = white_share_removed(AlongNormals(near, positions, p.normal, p.weight), near, responses.all,
                                                choice.weights, core);
@@ -288,6 +293,7 @@ Positions without_impulses(const Faces& faces, const Positions& positions, const
 struct Measured {
     SurfaceNoise noise;
     bool rounded = false;  ///< it is that of rounding to the lattice
+    bool voxels = false;   ///< and the lattice that of voxels
     Index spikes = 0;
     Positions start;                ///< without impulses
     std::vector<double> deviation;  ///< #V: of the noise along the normals, mesh units
@@ -311,6 +317,12 @@ Measured measured(const Faces& faces, const Positions& positions, const Incidenc
     std::optional<SurfaceNoise> rounded;
     if (step) rounded = rounding_noise(faces, positions, at, near, *step, edge);
     m.rounded = rounded.has_value();
+    m.voxels = rounded && between_voxels(positions, *step);
+    if (m.voxels) {
+        // Half a voxel to each side along an edge that the surface crosses, so mostly along its normal.
+        rounded->along_normals = rounded->at_least = *step / std::sqrt(3.0);
+        rounded->all_directions = false;
+    }
     tick(0.05, "Looking for impulsive noise");
     m.start = rounded ? positions : without_impulses(faces, positions, at, near, m.spikes);
     tick(0.1, "Measuring the noise");
@@ -374,6 +386,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     const auto& [found, within] = plan;
     const double deviation = stats.deviation = options.strength * found.along_normals;
     if (found.rounded) stats.step = *step;
+    stats.voxels = found.voxels;
     stats.spikes = found.spikes;
     stats.axis = found.noise.axis.has_value();
     if (!found.is_certain(edge)) return found.start;
@@ -382,6 +395,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     Assumed assumed;
     assumed.certain = found.certain;
     assumed.white = found.noise.white;
+    assumed.stairs = found.voxels;
     assumed.factor = allowance(deviation / edge, count) * (found.rounded ? 1 + terraces * deviation / edge : 1);
     assumed.normal_steps = normal_steps(deviation / edge);
     assumed.deviation = found.deviation;
@@ -404,7 +418,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     stats.rms_before = std::sqrt(choice.before + (around ? within.before * within.before : 0));
     stats.rms_after = std::sqrt(height * height * choice.after + side * side * error_within(within, shares));
     Positions after = maker.blend(stats.weights, [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
-    if (found.rounded) keep_within_cells(positions, stats.step, after);
+    if (found.rounded) keep_within_cells(positions, found.voxels ? stats.step : stats.step / 2, after);
     stats.edge = mean_edge_length(faces, after);
     return after;
 }

@@ -58,10 +58,28 @@ std::optional<double> lattice_step(const Positions& p, double least) {
     return step;
 }
 
-void keep_within_cells(const Positions& rounded, double step, Positions& positions) {
+bool between_voxels(const Positions& positions, double step) {
+    if (positions.empty()) return false;
+    // Which multiples are even cannot be seen at one vertex: every way to count them is tried.
+    std::array<bool, 8> may_be;
+    may_be.fill(true);
+    for (const Vec3& p : positions) {
+        std::array<unsigned, 3> odd;
+        for (int c = 0; c < 3; ++c)
+            odd[c] = std::fmod(std::abs(std::round((p[c] - positions[0][c]) / step)), 2) != 0 ? 1 : 0;
+        for (unsigned way = 0; way < may_be.size(); ++way) {
+            unsigned count = 0;
+            for (unsigned c = 0; c < 3; ++c) count += odd[c] ^ (way >> c & 1U);
+            may_be[way] = may_be[way] && count == 1;
+        }
+    }
+    return std::find(may_be.begin(), may_be.end(), true) != may_be.end();
+}
+
+void keep_within_cells(const Positions& rounded, double farthest, Positions& positions) {
     parallel_for(static_cast<Index>(positions.size()), [&](Index v) {
-        const Vec3 half = Vec3::Constant(step / 2);
-        positions[v] = positions[v].cwiseMax(rounded[v] - half).cwiseMin(rounded[v] + half);
+        const Vec3 most = Vec3::Constant(farthest);
+        positions[v] = positions[v].cwiseMax(rounded[v] - most).cwiseMin(rounded[v] + most);
     });
 }
 

@@ -11,7 +11,12 @@ namespace multires {
 /// Cost: O(#V log #V)
 std::optional<double> lattice_step(const Positions& positions, double least);
 
-/// Moves each coordinate to within half a step of where it was: the truth that was rounded to it is there.
-void keep_within_cells(const Positions& rounded, double step, Positions& positions);
+/// True if every vertex is on the middle of an edge of a cubic grid of two steps, as marching cubes put it on the
+/// boundary of voxels that are only inside or outside: two coordinates are even multiples of the step, one is odd.
+/// @param step  lattice_step()
+bool between_voxels(const Positions& positions, double step);
+
+/// Moves each coordinate to within so much of where it was: the truth that was rounded to it is there.
+void keep_within_cells(const Positions& rounded, double farthest, Positions& positions);
 
 }  // namespace multires

@@ -1,6 +1,7 @@
 #include "filters/shape/denoise.h"
 
 #include "denoise/automatic.h"
+#include "denoise/lattice.h"
 #include "denoise_fixtures.h"
 #include "normals/spikes.h"
 
@@ -226,6 +227,34 @@ TEST(AutomaticDenoise, TakesRoundedCoordinatesBackWithinTheirCells) {
             for (std::size_t i = 0; i < mesh.positions.size(); ++i)
                 ASSERT_LE(((*result.positions)[i] - mesh.positions[i]).cwiseAbs().maxCoeff(), (0.5 + 1e-9) * step);
         }
+}
+
+TEST(AutomaticDenoise, TakesTheStairsOfVoxelsForNoise) {
+    const Mesh truth = shapes::irregular_sphere(6000);
+    const double edge = edge_of(truth), voxel = 1.2 * edge;
+    Mesh mesh = truth;
+    for (Vec3& p : mesh.positions) {  // to the nearest middle of an edge of the grid of voxels
+        Vec3 best = Vec3::Constant(1e9);
+        for (int axis = 0; axis < 3; ++axis) {
+            Vec3 middle;
+            for (int c = 0; c < 3; ++c)
+                middle[c] = voxel * (c == axis ? std::floor(p[c] / voxel) + 0.5 : std::round(p[c] / voxel));
+            if ((middle - p).norm() < (best - p).norm()) best = middle;
+        }
+        p = best;
+    }
+    const std::optional<double> step = lattice_step(mesh.positions, 0.03 * edge);
+    ASSERT_TRUE(step);
+    EXPECT_NEAR(*step, voxel / 2, 1e-9);
+    EXPECT_TRUE(between_voxels(mesh.positions, *step));
+    EXPECT_FALSE(between_voxels(noisy(truth, Model::quantised, 0.2).positions, 0.2 * std::sqrt(12.0) * edge));
+    const Result result = run(layer_of(mesh));
+    EXPECT_EQ(number(result.report, "share_normal_field") + number(result.report, "share_guided_normals"), 0);
+    const Error before = error_of(truth, mesh.positions), after = error_of(truth, *result.positions);
+    EXPECT_LT(after.angle, 0.3 * before.angle);
+    EXPECT_LT(after.rms, 0.4 * before.rms);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        ASSERT_LE(((*result.positions)[i] - mesh.positions[i]).cwiseAbs().maxCoeff(), (1 + 1e-9) * *step);
 }
 
 TEST(AutomaticDenoise, BringsCreasesBackThatImpulsesMet) {

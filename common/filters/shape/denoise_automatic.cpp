@@ -54,7 +54,11 @@ void tell(const AutomaticStats& stats, const Shares& shares, Report& report) {
                    (stats.spikes > 0 ? "." : "; the mesh stays as it is."));
         return;
     }
-    if (stats.step > 0)
+    if (stats.voxels)
+        report.say(text("The boundary of voxels of %.4g edge lengths: its stairs are noise, and no vertex goes farther "
+                        "than half a voxel.",
+                        2 * stats.step / stats.edge));
+    else if (stats.step > 0)
         report.say(text("The coordinates were rounded to steps of %.4g edge lengths: no vertex leaves its cell.",
                         stats.step / stats.edge));
     report.say(text("Noise of %.3g edge lengths along the normals%s%s.", stats.deviation / stats.edge,
