@@ -123,6 +123,22 @@ TEST(NormalField, CreasesStaySharp) {
     EXPECT_GE(kept, 0.97 * creases);
 }
 
+TEST(NormalField, FacesOfAFanHaveFewNeighbours) {
+    for (const int sides : {64, 65, 5000}) {
+        const Mesh fan = shapes::fan(sides, 0.5);
+        const FaceGraph graph = face_graph(fan.faces, incidence_of(fan));
+        ASSERT_EQ(fan.faces.size(), std::size_t(sides));
+        EXPECT_EQ(graph.edges.size(), std::size_t(sides));
+        std::set<std::array<Index, 2>> pairs;
+        for (Index f = 0; f < sides; ++f) {
+            EXPECT_EQ(graph.offset[f + 1] - graph.offset[f], sides == 64 ? 63 : 32);
+            for (Index i = graph.offset[f]; i < graph.offset[f + 1]; ++i) pairs.insert({f, graph.neighbor[i]});
+        }
+        for (const auto& [f, g] : pairs) EXPECT_TRUE(pairs.count({g, f})) << f << ' ' << g;
+        for (const auto& e : graph.edges) EXPECT_TRUE(pairs.count(e));
+    }
+}
+
 TEST(NormalField, GivesUnitNormalsAndTicks) {
     const Mesh mesh = noisy(shapes::irregular_sphere(500), 0.2);
     NormalFieldStats stats;
