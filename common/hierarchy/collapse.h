@@ -169,6 +169,16 @@ inline bool faces_stay_good(Index v, Index u, const Ring& ring, const Positions&
     return true;
 }
 
+/// True if w is in the ring of u, which is looked for in the shorter of both: around hubs it costs no more.
+template <class RingOf>
+bool in_ring(const RingOf& ring_of, const Ring& ring_of_u, Index u, Index w) {
+    if (ring_of_u.size > 32) {
+        const Ring other = ring_of(w);
+        if (other.regular() && other.size < ring_of_u.size) return other.find(u) >= 0;
+    }
+    return ring_of_u.find(w) >= 0;
+}
+
 /// The link condition for v -> u = ring(v)[j], and that no ring becomes too small. `degree(w)` is the present
 /// size of a ring; `joined(u, w)` knows edges made since the rings were taken.
 template <class RingOf, class Degree, class Joined>
@@ -189,7 +199,7 @@ bool link_allows(const Ring& ring, Index j, const RingOf& ring_of, const Degree&
     for (Index i = 0; i < ring.size; ++i) {
         const Index w = ring.vertex[i];
         if (w == u || w == wing[0] || w == wing[1]) continue;
-        if (target.find(w) >= 0 || joined(u, w)) return false;
+        if (in_ring(ring_of, target, u, w) || joined(u, w)) return false;
     }
     return true;
 }

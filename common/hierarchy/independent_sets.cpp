@@ -258,7 +258,8 @@ private:
     /// True if a vertex that went to u in this step had w in its ring.
     bool gained(Index u, Index w) const {
         if (!(state_[u] & target)) return false;
-        const Ring ring = ring_of(s_.rings, u);
+        const Ring of_u = ring_of(s_.rings, u), of_w = ring_of(s_.rings, w);
+        const Ring& ring = of_u.size > 32 && of_w.regular() && of_w.size < of_u.size ? of_w : of_u;  // around hubs
         for (Index j = 0; j < ring.size; ++j)
             if (parent_[ring.vertex[j]] == u && ring_of(s_.rings, ring.vertex[j]).find(w) >= 0) return true;
         return false;
