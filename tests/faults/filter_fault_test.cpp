@@ -21,6 +21,14 @@ namespace {
 using namespace plugin;
 using faults::Shortage;
 
+#ifdef MULTIRES_SANITIZED
+constexpr long tried = 100;  // allocations of a call, at most about as many
+constexpr long every = 61;   // allocation of a variant
+#else
+constexpr long tried = 400;
+constexpr long every = 11;
+#endif
+
 /// A closed surface with a boundary, a non-manifold and an unreferenced vertex, and every attribute.
 Mesh small_mesh() {
     Mesh mesh = shapes::irregular_sphere(42, {0.3, 0.3, 5});
@@ -98,18 +106,13 @@ TEST_P(FilterFaults, NoMemoryAtAnyAllocationIsAnErrorAndTheNextCallWorks) {
     const auto calls = variants(filter(), layer);
     faults::count();
     run(filter(), layer, calls[0].values);
-    const long stride = faults::stop() / 400 + 1;  // all of them, but of filters that make thousands
+    const long stride = faults::stop() / tried + 1;  // all of them, but of filters that make thousands
     EXPECT_GT(starve(calls[0], Shortage::once, 0, stride), 10) << "counts no allocations";
     starve(calls[0], Shortage::lasting, 0, stride);
 }
 
 TEST_P(FilterFaults, NoMemoryInAnyVariantIsAnError) {
     const fixtures::Threads one(1);
-#ifdef MULTIRES_SANITIZED
-    const long stride = 61;
-#else
-    const long stride = 11;
-#endif
     long first = 0;
     for (const Variant& variant : variants(filter(), layer)) {
         try {
@@ -118,7 +121,7 @@ TEST_P(FilterFaults, NoMemoryInAnyVariantIsAnError) {
             continue;  // nothing to do with these values
         }
         SCOPED_TRACE(variant.name);
-        starve(variant, Shortage::once, ++first % stride, stride);
+        starve(variant, Shortage::once, ++first % every, every);
     }
 }
 

@@ -51,7 +51,8 @@ protected:
         auto c = std::make_unique<Case>(GetParam(), content);
         faults::count(memory);
         c->run();
-        const long step = faults::stop() / (large ? 6 : 400) + 1;
+        const long tried = large ? 4 : shortage == Shortage::once && content == Content::everything ? 400 : 150;
+        const long step = faults::stop() / tried + 1;
         const Snapshot done = snapshot(c->document);
         const std::string& name = GetParam().name;
         const bool may_find_nothing =  // without creases; or it only reports
