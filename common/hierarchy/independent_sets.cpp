@@ -233,7 +233,7 @@ private:
     bool try_vertex(Index v, Index best, std::vector<std::pair<double, Index>>& others) {
         const Ring ring = ring_of(s_.rings, v);
         if (allowed(v, ring, best)) return accept(v, ring, best);
-        // The cheapest target is barred; try the others in order of cost.
+        // The cheapest target is barred; try the others in order of cost, of a hub's the cheapest.
         others.clear();
         const Directions directions(ring);
         const Costs costs(s_, v, ring, options_);
@@ -242,7 +242,9 @@ private:
             const double cost = costs[j];
             if (radix_key(static_cast<float>(cost)) <= most_of_others_) others.push_back({cost, j});
         }
-        std::sort(others.begin(), others.end());
+        const auto end = others.begin() + std::min<std::size_t>(others.size(), 32);
+        std::partial_sort(others.begin(), end, others.end());
+        others.erase(end, others.end());
         for (const auto& [cost, j] : others)
             if (allowed(v, ring, j)) return accept(v, ring, j);
         return false;
