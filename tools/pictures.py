@@ -427,6 +427,27 @@ def rounded(path):
     rendering.contact_sheet(panels, rendering.three_quarter_camera(truth, f), 300).save(path, "WEBP", quality=80, method=6)
 
 
+def voxels(path):
+    """The bunny as voxels that are only inside or outside, by marching cubes; Taubin's filter with its defaults; Denoise."""
+    import pyvista
+
+    v, f = read(BUNNY)
+    size = np.ptp(v, axis=0).max() / 60
+    low = v.min(axis=0) - 2 * size
+    dimensions = np.ceil((v.max(axis=0) + 2 * size - low) / size).astype(int)
+    grid = pyvista.ImageData(dimensions=dimensions, spacing=(size,) * 3, origin=low)
+    surface = pyvista.PolyData(v, np.column_stack([np.full(len(f), 3), f]).ravel())
+    distance = grid.compute_implicit_distance(surface)["implicit_distance"]
+    grid["inside"] = (distance < 0).astype(float)
+    stairs = grid.contour([0.5], scalars="inside", method="marching_cubes").triangulate().clean()
+    v, f = np.asarray(stairs.points, dtype=float), stairs.faces.reshape(-1, 4)[:, 1:]
+    taubin = run(Setting("apply_coord_taubin_smoothing"), v, f)[0]
+    ours = run(Setting(DENOISE), v, f)[0]
+    panels = [Panel("Voxels", "marching cubes", v, f), Panel("Taubin", "defaults", taubin, f),
+              Panel("Denoise", "no parameter", ours, f)]  # fmt: skip
+    rendering.contact_sheet(panels, rendering.three_quarter_camera(v, f), 300).save(path, "WEBP", quality=80, method=6)
+
+
 def heights(v, f, path):
     """How common each height of the bunny's fur is, and the bearing curve, by the Python package's plot."""
     import types
@@ -534,12 +555,12 @@ def grid_picture(name, path):
 
 
 SPECIAL = {"compute_multires_pyramid": levels, "compute_multires_watermark": displacement}
-ALONE = {"giraffe": giraffe, "cow-leg": cow_leg, "denoise-rounded": rounded}
+ALONE = {"giraffe": giraffe, "cow-leg": cow_leg, "denoise-rounded": rounded, "denoise-voxels": voxels}
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--only", nargs="*", help="names of filters, top, giraffe, cow-leg or denoise-rounded")
+    parser.add_argument("--only", nargs="*", help="names of filters, top, giraffe, cow-leg, denoise-rounded or denoise-voxels")
     parser.add_argument("--output", type=pathlib.Path, default=FOLDER)
     arguments = parser.parse_args()
     load_plugins()

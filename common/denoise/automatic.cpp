@@ -23,6 +23,7 @@ constexpr double terraces = 0.7;  ///< rounding to steps as large as edges errs 
 constexpr int spike_steps = 3;    ///< of guided normals, for what impulses met: creases come back
 constexpr double mostly = 0.5;    ///< weight of the normal field that speaks for guided normals
 constexpr double sharply = 0.65;  ///< weight of what keeps creases from which on it is alone
+constexpr double farthest = 4;    ///< deviations: Gaussian noise moves one vertex in 16,000 farther
 constexpr double small_weight = 0.04;  ///< candidates with less than this are left out
 
 using Tick = std::function<void(double, const char*)>;
@@ -273,6 +274,17 @@ double error_within(const WithinSurface& within, const Shares& shares) {
     return shares.smoothing * shares.smoothing * mean_square(within.smoothing) + turned;
 }
 
+/// Takes moves back that are longer than noise: thin sheets and single features may be drawn in.
+/// @param deviation  #V: of the noise
+void keep_within_noise(const Positions& from, const std::vector<double>& deviation, Positions& positions) {
+    const double least = root_mean_square(deviation);
+    for (std::size_t i = 0; i < from.size(); ++i) {
+        const Vec3 move = positions[i] - from[i];
+        const double length = move.norm(), most = farthest * std::max(deviation[i], least);
+        if (length > most) positions[i] = from[i] + most / length * move;
+    }
+}
+
 /// Factor for an error that is estimated along normals that do not move: noise tilts them.
 double tilted(double share, double deviation_in_edges) {
     return 1 + share * std::pow(std::min(deviation_in_edges, 0.3), 2);
@@ -418,6 +430,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     stats.rms_before = std::sqrt(choice.before + (around ? within.before * within.before : 0));
     stats.rms_after = std::sqrt(height * height * choice.after + side * side * error_within(within, shares));
     Positions after = maker.blend(stats.weights, [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
+    keep_within_noise(relaxed, assumed.deviation, after);
     if (found.rounded) keep_within_cells(positions, found.voxels ? stats.step : stats.step / 2, after);
     stats.edge = mean_edge_length(faces, after);
     return after;

@@ -257,6 +257,18 @@ TEST(AutomaticDenoise, TakesTheStairsOfVoxelsForNoise) {
         ASSERT_LE(((*result.positions)[i] - mesh.positions[i]).cwiseAbs().maxCoeff(), (1 + 1e-9) * *step);
 }
 
+TEST(AutomaticDenoise, MovesNoVertexFartherThanNoise) {
+    Mesh truth = shapes::block(13);  // flattened to a sheet
+    for (Vec3& p : truth.positions) p.z() *= 0.02;
+    for (const Mesh& shape : {truth, shapes::scan(2000)}) {
+        const Mesh mesh = noisy(shape, Model::along_normals, 0.05);
+        const Result result = run(layer_of(mesh));
+        const double noise = number(result.report, "noise");
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+            ASSERT_LE(((*result.positions)[i] - mesh.positions[i]).norm(), 5.5 * noise);
+    }
+}
+
 TEST(AutomaticDenoise, BringsCreasesBackThatImpulsesMet) {
     const Mesh truth = shapes::block(15), mesh = noisy(truth, Model::impulsive, 0.3);
     const Incidence at = vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()));
