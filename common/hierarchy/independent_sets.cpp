@@ -94,8 +94,15 @@ Candidates rank_vertices(const State& s, const HierarchyOptions& options) {
             least = costs[c.target[v]];
         } else {
             const Costs costs(s, v, ring, options);
-            for (Index j = 0; j < ring.size; ++j)
-                if (const double cost = costs[j]; directions.allows(j) && cost < least) least = cost, c.target[v] = j;
+            Index best = 0;
+            const bool all = directions.all();
+            for (Index j = 0; j < ring.size; ++j) {
+                if (!all && !directions.allows(j)) continue;
+                const double cost = costs[j];  // which is less is hard to predict: no branch
+                best = cost < least ? j : best;
+                least = cost < least ? cost : least;
+            }
+            c.target[v] = best;
         }
         if (!(least < std::numeric_limits<double>::infinity())) return;
         if (options.split == Split::regression_plane)
