@@ -10,6 +10,7 @@ namespace multires {
 namespace {
 
 constexpr Index many = 64;         // faces at a vertex
+constexpr Index many_at_edge = 8;  // faces
 constexpr int steps_at_many = 16;  // from face to face around it
 
 /// The faces at a vertex by their other vertices: {other vertex, face}, ascending.
@@ -38,7 +39,9 @@ std::vector<Index> reached_around(Index v, Index face, const Faces& faces, const
             for (const Index w : faces[f]) {
                 if (w == v) continue;
                 const auto first = std::lower_bound(spokes.begin(), spokes.end(), std::array<Index, 2>{w, 0});
-                for (auto s = first; s != spokes.end() && (*s)[0] == w; ++s) next.push_back((*s)[1]);
+                const auto last = std::lower_bound(first, spokes.end(), std::array<Index, 2>{w + 1, 0});
+                if (last - first > many_at_edge) continue;
+                for (auto s = first; s != last; ++s) next.push_back((*s)[1]);
             }
         std::sort(next.begin(), next.end());
         next.erase(std::unique(next.begin(), next.end()), next.end());

@@ -15,7 +15,7 @@ struct FaceGraph {
 };
 
 /// Around a vertex with more than 64 faces, such as the middle of a fan, only those within 16 steps over its edges are
-/// neighbours of each other. Cost: linear.
+/// neighbours of each other, where no step is over an edge of more than 8 faces. Cost: linear.
 FaceGraph face_graph(const Faces& faces, const Incidence& at);
 
 }  // namespace multires

@@ -139,6 +139,18 @@ TEST(NormalField, FacesOfAFanHaveFewNeighbours) {
     }
 }
 
+TEST(NormalField, PagesOfABookAreNotAllNeighbours) {
+    Mesh book;
+    book.positions = {{0, 0, 0}, {0, 0, 1}};
+    for (Index i = 0; i < 3000; ++i) {
+        book.positions.emplace_back(std::cos(0.002 * i), std::sin(0.002 * i), 0.5);
+        book.faces.push_back({0, 1, i + 2});
+    }
+    const FaceGraph graph = face_graph(book.faces, incidence_of(book));
+    EXPECT_TRUE(graph.neighbor.empty());
+    EXPECT_TRUE(graph.edges.empty());
+}
+
 TEST(NormalField, GivesUnitNormalsAndTicks) {
     const Mesh mesh = noisy(shapes::irregular_sphere(500), 0.2);
     NormalFieldStats stats;
