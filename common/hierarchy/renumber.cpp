@@ -1,6 +1,7 @@
 #include "hierarchy/renumber.h"
 
 #include "base/parallel.h"
+#include "mesh/adjacency.h"
 
 #include <algorithm>
 
@@ -22,7 +23,9 @@ Rings renumbered(const Rings& rings, const Array<Index>& from, const Array<Index
         if (!rings.feature.empty()) std::copy_n(rings.feature.data() + source, size, out.feature.data() + to);
         if (rings.flap.empty()) return;
         for (Index j = 0; j < size; ++j) {
-            const Index flap = rings.flap[source + j];
+            Index flap = rings.flap[source + j];
+            const bool along = out.kind[r] == RingKind::open && (j == 0 || j + 1 == size);
+            if (along && place[flap] >= limit) flap = next_on_boundary(rings, rings.neighbor[source + j], flap);
             out.flap[to + j] = place[flap] < limit ? place[flap] : out.neighbor[to + j];
         }
     });

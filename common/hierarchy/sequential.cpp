@@ -142,16 +142,31 @@ private:
         const Ring r = ring(v);
         for (Index j = 0; j < r.size; ++j) {
             table.neighbor.push_back(r.vertex[j]);
-            if (options_.flaps) table.flap.push_back(flap(v, r.vertex[j], r.after(j)));
+            if (options_.flaps)
+                table.flap.push_back(r.closed() ? flap(v, r.vertex[j], r.after(j)) : beyond_end(v, r, j));
             if (features_) table.feature.push_back(r.feature[j]);
         }
         table.offset.push_back(static_cast<Index>(table.neighbor.size()));
         table.kind.push_back(r.kind);
     }
 
+    /// Flaps of open rings.
+    Index beyond_end(Index v, const Ring& r, Index j) const {
+        const bool end = j == 0 || j + 1 == r.size;
+        return end ? next_on_boundary(v, r.vertex[j]) : r.vertex[j];
+    }
+
     Index flap(Index v, const Index a, const Index b) const {
-        const Index beyond = b < 0 ? -1 : beyond_edge(v, a, b);
+        const Index beyond = beyond_edge(v, a, b);
         return beyond >= 0 ? beyond : a;
+    }
+
+    /// See mesh/adjacency.h.
+    Index next_on_boundary(Index from, Index at) const {
+        const Ring r = ring(at);
+        if (!r.regular() || r.closed() || Directions(r).none()) return at;
+        const Index first = r.vertex[0], last = r.vertex[r.size - 1];
+        return first == from ? last : last == from ? first : at;
     }
 
     Index beyond_edge(Index v, Index a, Index b) const {

@@ -143,10 +143,9 @@ Index beside(const Rings& rings, Index a, Index b, Index not_this) {
     return before == not_this ? after : before;
 }
 
-/// The flap of the link from entry j of row i to the next, that entry itself if there is none.
+/// The flap of the link from entry j of a closed row i to the next, that entry itself if there is none.
 Index flap_of(const Rings& rings, Index i, Index j) {
     const Index d = rings.size(i), a = rings.begin(i)[j];
-    if (j + 1 == d && rings.kind[i] != RingKind::closed) return a;
     const Index b = rings.begin(i)[j + 1 < d ? j + 1 : 0];
     const Index flap = rings.size(a) > 0 ? beside(rings, a, b, i) : beside(rings, b, a, i);
     return flap >= 0 ? flap : a;
@@ -178,6 +177,17 @@ Rings vertex_rings(const Mesh& mesh) {
     return rings;
 }
 
+Index next_on_boundary(const Rings& rings, Index from, Index at) {
+    const Index d = rings.size(at), none = at;
+    if (rings.kind[at] != RingKind::open) return none;
+    if (!rings.feature.empty()) {
+        const std::uint8_t* const feature = rings.feature.data() + rings.offset[at];
+        if (std::any_of(feature + 1, feature + d - 1, [](auto f) { return f != 0; })) return none;
+    }
+    const Index first = rings.begin(at)[0], last = rings.begin(at)[d - 1];
+    return first == from ? last : last == from ? first : none;
+}
+
 void find_flaps(Rings& rings, const Array<Index>* rows) {
     rings.flap.resize(rings.neighbor.size());
     const bool features = !rings.feature.empty();
@@ -186,7 +196,9 @@ void find_flaps(Rings& rings, const Array<Index>* rows) {
         const Index* const r = rings.begin(i);
         Index* const flap = rings.flap.data() + rings.offset[i];
         if (rings.kind[i] != RingKind::closed || features) {
-            for (Index j = 0; j < d; ++j) flap[j] = flap_of(rings, i, j);
+            const bool open = rings.kind[i] == RingKind::open;
+            for (Index j = 0; j < d; ++j) flap[j] = open ? r[j] : flap_of(rings, i, j);
+            for (Index j = 0; open && j < d; j += d - 1) flap[j] = next_on_boundary(rings, i, r[j]);
             return;
         }
         // In the ring of neighbour j, i stands between j-1 and j+1, and beyond those are the flaps of both links: one

@@ -19,8 +19,13 @@ namespace multires {
 /// Cost: linear in the mesh, O(d log d) for a vertex of valence d.
 Rings vertex_rings(const Mesh& mesh);
 
-/// Fills Rings::flap of rows that together hold every vertex (row i = vertex i): the vertex across each link edge;
-/// none if the link edge lies on the boundary, is a feature, or touches an irregular vertex on both ends.
+/// The neighbour along the boundary of a boundary vertex that comes after `from`; `at` itself if the boundary cannot be
+/// followed there, or if a feature edge meets it.
+/// @param rings  row i = vertex i
+Index next_on_boundary(const Rings& rings, Index from, Index at);
+
+/// Fills Rings::flap of rows that together hold every vertex (row i = vertex i): the vertex across each link edge
+/// of closed rows, and the next vertex of the boundary beyond both ends of open ones; none if the link edge lies on the boundary, is a feature, or touches an irregular vertex on both ends.
 /// @param rows  if given, only these get theirs; those of the others are not set
 void find_flaps(Rings& rings, const Array<Index>* rows = nullptr);
 

@@ -26,7 +26,8 @@ struct Rings {
     Array<Index> offset{0};  ///< #rows+1
     Array<Index> neighbor;   ///< #entries
     /// #entries or empty: vertex beyond the link edge (j, j+1); neighbour j itself if there is none or the edge is a
-    /// feature, so that sums over flaps need not ask.
+    /// feature, so that sums over flaps need not ask. Open rows have flaps at their ends alone: the next vertices of
+    /// the boundary, unless a feature meets it at the end.
     Array<Index> flap;
     Array<std::uint8_t> feature;  ///< #entries or empty: 1 if the edge (vertex, neighbor) is a feature edge
     Array<RingKind> kind;         ///< #rows

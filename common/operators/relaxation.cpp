@@ -24,6 +24,45 @@ void interpolate(const Star& star, const Positions& positions, Index a, Index b,
     weight[b] = sum > 0 ? to_a / sum : 0.5;
 }
 
+/// One side of a vertex on a curve.
+struct Side {
+    double near = 0, step = 0;  ///< lengths of the edges to the neighbour, and from there to the next vertex
+    double even = 0;            ///< 1; less if `step` is less than half of `near`, or at corners; 0: no next vertex
+
+    /// Of the second-order difference at the neighbour, over `step`; bounded by 4 / near.
+    double weight(const Side& other) const { return even > 0 ? even * (2 - other.even) / step : 0; }
+};
+
+/// Minimises the sum of the squared second-order differences along a curve over the vertex and its neighbours, with
+/// weights for which quadratic functions of the length along the curve are reproduced. Where it turns by more than 60
+/// degrees at a neighbour what is beyond counts less, and not at all from 90 degrees on; without it linear
+/// interpolation between the neighbours is left.
+/// @returns false, and no weights, if an edge has no length
+bool along_curve(const Star& star, const Positions& positions, Index a, Index b, double* weight, double* flap_weight) {
+    const Index end[2] = {a, b};
+    Side side[2];
+    for (int s = 0; s < 2; ++s) {
+        const Index to = star.neighbor[end[s]], next = star.flap[end[s]];
+        side[s].near = length(star, positions, end[s]);
+        if (!(side[s].near > 0)) return false;
+        if (next == to || next == star.vertex || next == star.neighbor[end[1 - s]]) continue;
+        const Vec3 step = positions[next] - positions[to];
+        const double along = step.dot(positions[to] - positions[star.vertex]) / side[s].near;
+        side[s].step = step.norm();
+        if (along > 0) side[s].even = std::min({1.0, 2 * side[s].step / side[s].near, 2 * along / side[s].step});
+    }
+    double sum = 1 / (side[0].near * side[1].near);
+    for (int s = 0; s < 2; ++s) {
+        const double near = side[s].near, both = near + side[1 - s].near, far = near + side[s].step;
+        const double g = side[s].weight(side[1 - s]);
+        weight[end[s]] = 1 / (near * both) + g / (2 * near);
+        flap_weight[end[s]] = -g / (2 * far);
+        sum += g * side[s].step / (2 * near * far);
+    }
+    for (const Index e : end) weight[e] /= sum, flap_weight[e] /= sum;
+    return true;
+}
+
 /// What is used when all triangles of a star are degenerate. Scaled by the shortest edge, so that the limit of edges of
 /// no length is taken exactly: those share the weight.
 void inverse_lengths(const StarGeometry& star, double* weight) {
@@ -92,7 +131,9 @@ bool RowRelaxation::row(const Star& star, const Positions& positions, double* we
     const Curve curve = rule(star);
     if (curve.rule != Rule::disk) {
         std::fill_n(weight, star.size, 0.0);
-        if (curve.rule == Rule::curve) interpolate(star, positions, curve.a, curve.b, weight);
+        const bool open = star.kind == RingKind::open && flap_weight != nullptr;
+        if (curve.rule == Rule::curve && !(open && along_curve(star, positions, curve.a, curve.b, weight, flap_weight)))
+            interpolate(star, positions, curve.a, curve.b, weight);
         return curve.rule == Rule::curve;
     }
     if (options_.op == Operator::umbrella) {

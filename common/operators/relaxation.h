@@ -19,9 +19,11 @@
 /// Rules that hold for all operators
 /// - Every row sums to 1 up to rounding, or is identically zero and listed in `fixed`: that vertex keeps its value,
 ///   R f_v = f_v. Fixed are vertices without a ring (irregular, isolated) and corners (below).
-/// - Boundary: a vertex with an open ring is relaxed along the boundary curve only, by linear interpolation of its
-///   two boundary neighbours with weights inverse to the edge lengths. It is fixed if a feature edge meets the
-///   boundary there.
+/// - Boundary: a vertex with an open ring is relaxed along the boundary curve only. Operators with flaps minimise
+///   the squared second-order differences at the vertex and at its two boundary neighbours, for which they know the
+///   next vertices: quadratic functions of the length are reproduced, but across corners, so that round rims are.
+///   The others interpolate linearly between the two neighbours with weights inverse to the edge lengths. The
+///   vertex is fixed if a feature edge meets the boundary there.
 /// - Feature edges: the second-order differences across them are left out of the sum (Guskov 1999, section 2.3). For
 ///   the other operators a vertex with exactly two feature spokes is relaxed along the crease as if it were a
 ///   boundary; with one, or more than two, it is a corner and fixed. A link edge that is a feature is given by a flap

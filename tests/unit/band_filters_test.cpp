@@ -96,6 +96,27 @@ TEST(BandFilters, EnhanceDoublesTheHighBandOnly) {
     }
 }
 
+TEST(BandFilters, RoundRimsStayAsTheyAre) {
+    const Mesh cylinder = shapes::open_cylinder(200, 100, 1, 3);
+    const double edge = 0.03;
+    for (const Grouping grouping : {Grouping::independent_sets, Grouping::sequential}) {
+        PyramidOptions pyramid;
+        pyramid.hierarchy.grouping = grouping;
+        if (grouping == Grouping::sequential) pyramid.hierarchy.level_ratio = 0.5;
+        LowPassOptions low;
+        low.pyramid = pyramid;
+        low.cutoff = 16 * edge;
+        BandOptions enhance;
+        enhance.band = {Unit::wavelength, 2 * edge, 16 * edge, 0};
+        enhance.pyramid = pyramid;
+        enhance.gain = 2;
+        // 0.7 edges at most; with linear interpolation along the boundary up to 8.6.
+        const Layer layer = layer_of(cylinder);
+        EXPECT_LT(largest_distance(*run(low_pass, layer, low).positions, cylinder.positions), edge);
+        EXPECT_LT(largest_distance(*run(scale_band, layer, enhance).positions, cylinder.positions), edge);
+    }
+}
+
 TEST(BandFilters, EqualizerIsASumOfBands) {
     const Layer layer = layer_of(sphere().mesh);
     EqualizerOptions options;

@@ -76,9 +76,9 @@ Row row_of(const Rings& rings, Index r, const Name& name) {
         if (!rings.feature.empty()) row.feature[row.ring.back()] = rings.feature[o + j] != 0;
     }
     if (!rings.flap.empty())
-        for (Index j = 0; j < (closed ? d : d - 1); ++j) {
-            row.flap[std::minmax(row.ring[j], row.ring[j + 1 < d ? j + 1 : 0])] =
-                rings.has_flap(o + j) ? name(rings.flap[o + j]) : -1;
+        for (Index j = 0; j < d; ++j) {
+            const Index to = closed ? row.ring[j + 1 < d ? j + 1 : 0] : row.ring[j];
+            row.flap[std::minmax(row.ring[j], to)] = rings.has_flap(o + j) ? name(rings.flap[o + j]) : -1;
         }
     row.ring = canonical(std::move(row.ring), closed);
     return row;

@@ -49,7 +49,7 @@ TEST(Lattice, IsNotSeenWhereThereIsNone) {
 TEST(Lattice, CellsHoldEachCoordinate) {
     Positions p{Vec3(1, 2, 3), Vec3(1.04, 2.2, 2.7)};
     const Positions centers{Vec3(1, 2, 3), Vec3(1, 2, 3)};
-    keep_within_cells(centers, 0.1, p);
+    keep_within_cells(centers, 0.05, p);
     EXPECT_EQ(p[0], Vec3(1, 2, 3));
     EXPECT_NEAR((p[1] - Vec3(1.04, 2.05, 2.95)).norm(), 0, 1e-12);
 }

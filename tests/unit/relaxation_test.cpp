@@ -124,6 +124,7 @@ TEST(Relaxation, OpenRingsInterpolateAlongTheBoundary) {
     for (const Mesh& mesh : {shapes::plane(8), shapes::open_cylinder(9, 3), shapes::triangle()}) {
         const Rings rings = rings_with_flaps(mesh);
         for (const Operator op : all_operators) {
+            if (uses_flaps(op)) continue;
             const Rows rows = sparse_rows(rings, mesh.positions, with(op));
             for (Index r = 0; r < rings.rows(); ++r) {
                 if (rings.kind[r] != RingKind::open) continue;
@@ -136,6 +137,56 @@ TEST(Relaxation, OpenRingsInterpolateAlongTheBoundary) {
             }
         }
     }
+}
+
+/// Weights of the vertex at 0 of a straight boundary, for those at `at`, ascending and two on either side; of no vertex
+/// if it is infinite.
+std::array<double, 4> weights_along_boundary(const std::array<double, 4>& at) {
+    Positions p{{0, 0, 0}, {at[2], 0, 0}, {0, 1, 0}, {at[1], 0, 0}, {at[3], 0, 0}, {at[0], 0, 0}};
+    Rings rings;
+    rings.kind = {RingKind::open};
+    rings.offset = {0, 3};
+    rings.neighbor = {1, 2, 3};
+    rings.flap = {std::isfinite(at[3]) ? 4 : 1, 2, std::isfinite(at[0]) ? 5 : 3};
+    rings.vertices = {0};
+    for (Vec3& q : p)
+        if (!std::isfinite(q[0])) q[0] = 0;
+    const RingWeights w = ring_weights(rings, p, with(Operator::second_difference_flaps));
+    EXPECT_TRUE(w.fixed.empty());
+    EXPECT_EQ(w.weight[1], 0);
+    EXPECT_EQ(w.flap_weight[1], 0);
+    return {w.flap_weight[2], w.weight[2], w.weight[0], w.flap_weight[0]};
+}
+
+TEST(Relaxation, OperatorsWithFlapsReproduceQuadraticsAlongTheBoundary) {
+    const double none = std::numeric_limits<double>::infinity();
+    const auto even = weights_along_boundary({-2, -1, 1, 2});
+    const std::array<double, 4> expected{-1.0 / 6, 2.0 / 3, 2.0 / 3, -1.0 / 6};
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(even[k], expected[k], 1e-15);
+    const auto straight = weights_along_boundary({-none, -1, 2, none});
+    EXPECT_NEAR(straight[1], 2.0 / 3, 1e-15);
+    EXPECT_NEAR(straight[2], 1.0 / 3, 1e-15);
+    for (const std::array<double, 4>& at : {std::array<double, 4>{-3, -1, 2, 3.5},
+                                            {-1.1, -1, 2, 4},
+                                            {-none, -1, 2, 4},
+                                            {-5, -1, 0.25, none},
+                                            {-1, -1, 2, 4},
+                                            {-1e-3, -1e-4, 50, 80}}) {
+        const auto w = weights_along_boundary(at);
+        double sum = 0, line = 0, square = 0, norm = 0;
+        for (int k = 0; k < 4; ++k) {
+            if (w[k] == 0) continue;
+            sum += w[k], line += w[k] * at[k], square += w[k] * at[k] * at[k], norm += std::abs(w[k]);
+        }
+        EXPECT_NEAR(sum, 1, 1e-14);
+        EXPECT_NEAR(line, 0, 1e-13);
+        EXPECT_NEAR(square, 0, 1e-12);
+        EXPECT_LT(norm, 10);
+    }
+    // Both next vertices next to nothing away: nearly linear interpolation.
+    const auto crowded = weights_along_boundary({-1 - 1e-6, -1, 2, 2 + 1e-6});
+    EXPECT_NEAR(crowded[0] + crowded[1], 2.0 / 3, 1e-5);
+    for (const double w : crowded) EXPECT_LT(std::abs(w), 5);
 }
 
 TEST(Relaxation, RelaxedKeepsTheValuesOfFixedRows) {
