@@ -25,7 +25,8 @@ Rings vertex_rings(const Mesh& mesh);
 Index next_on_boundary(const Rings& rings, Index from, Index at);
 
 /// Fills Rings::flap of rows that together hold every vertex (row i = vertex i): the vertex across each link edge
-/// of closed rows, and the next vertex of the boundary beyond both ends of open ones; none if the link edge lies on the boundary, is a feature, or touches an irregular vertex on both ends.
+/// of closed rows, and the next vertex of the boundary beyond both ends of open ones; none if the link edge lies on the
+/// boundary, is a feature, or touches an irregular vertex on both ends.
 /// @param rows  if given, only these get theirs; those of the others are not set
 void find_flaps(Rings& rings, const Array<Index>* rows = nullptr);
 
