@@ -169,12 +169,20 @@ inline bool faces_stay_good(Index v, Index u, const Ring& ring, const Positions&
     return true;
 }
 
-/// True if w is in the ring of u, which is looked for in the shorter of both: around hubs it costs no more.
+/// Rings longer than this are not gone through where a shorter one, or a part, will do.
+constexpr Index hub = 32;
+
+/// True if all that is in both rings is found sooner by going through the second.
+inline bool is_hub_beside(const Ring& ring, const Ring& other) {
+    return ring.size > hub && other.regular() && other.size < ring.size;
+}
+
+/// True if w is in the ring of u.
 template <class RingOf>
 bool in_ring(const RingOf& ring_of, const Ring& ring_of_u, Index u, Index w) {
-    if (ring_of_u.size > 32) {
+    if (ring_of_u.size > hub) {  // else the other ring need not be fetched
         const Ring other = ring_of(w);
-        if (other.regular() && other.size < ring_of_u.size) return other.find(u) >= 0;
+        if (is_hub_beside(ring_of_u, other)) return other.find(u) >= 0;
     }
     return ring_of_u.find(w) >= 0;
 }

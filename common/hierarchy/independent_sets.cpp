@@ -249,7 +249,7 @@ private:
             const double cost = costs[j];
             if (radix_key(static_cast<float>(cost)) <= most_of_others_) others.push_back({cost, j});
         }
-        const auto end = others.begin() + std::min<std::size_t>(others.size(), 32);
+        const auto end = others.begin() + std::min<std::size_t>(others.size(), collapse::hub);
         std::partial_sort(others.begin(), end, others.end());
         others.erase(end, others.end());
         for (const auto& [cost, j] : others)
@@ -268,7 +268,7 @@ private:
     bool gained(Index u, Index w) const {
         if (!(state_[u] & target)) return false;
         const Ring of_u = ring_of(s_.rings, u), of_w = ring_of(s_.rings, w);
-        const Ring& ring = of_u.size > 32 && of_w.regular() && of_w.size < of_u.size ? of_w : of_u;  // around hubs
+        const Ring& ring = collapse::is_hub_beside(of_u, of_w) ? of_w : of_u;
         for (Index j = 0; j < ring.size; ++j)
             if (parent_[ring.vertex[j]] == u && ring_of(s_.rings, ring.vertex[j]).find(w) >= 0) return true;
         return false;

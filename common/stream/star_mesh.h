@@ -55,9 +55,8 @@ public:
 
     Index origin(Index h) const { return half_[h >> 2].origin[h & 3]; }
     Index target(Index h) const { return origin(next(h)); }
-    Index twin(Index h) const {
-        return half_[h >> 2].twin[h & 3];
-    }  ///< -1 at a boundary or where more than two faces meet
+    /// -1 at a boundary or where more than two faces meet.
+    Index twin(Index h) const { return half_[h >> 2].twin[h & 3]; }
     static Index next(Index h) { return (h & 3) == 2 ? h - 2 : h + 1; }
     static Index previous(Index h) { return (h & 3) == 0 ? h + 2 : h - 1; }
 
