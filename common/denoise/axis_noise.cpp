@@ -1,9 +1,7 @@
 #include "denoise/axis_noise.h"
 
+#include "base/decompositions.h"
 #include "base/reduce.h"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -79,13 +77,13 @@ Fit fitted(const std::vector<Row>& row, const std::vector<double>& energy, doubl
             part.right += weight * energy[i] * r;
         });
         all.matrix.diagonal().array() += 1e-9 * all.matrix.trace();
-        fit.found = kept * all.matrix.ldlt().solve(all.right);
+        fit.found = kept * solve_symmetric(all.matrix, all.right);
         if (fit.found[columns - 1] < 0) {
             all.matrix.row(columns - 1).setZero();
             all.matrix.col(columns - 1).setZero();
             all.matrix(columns - 1, columns - 1) = 1;
             all.right[columns - 1] = 0;
-            fit.found = kept * all.matrix.ldlt().solve(all.right);
+            fit.found = kept * solve_symmetric(all.matrix, all.right);
         }
     }
     fit.deviation = chunked_fold<Mean>(row.size(), [&](Mean& part, std::size_t i) {
@@ -107,10 +105,9 @@ std::optional<AxisNoise> axis_noise(const Neighbours& near, const Array<Vec3>& n
     const Row& c = own.found;
     Eigen::Matrix3d covariance;
     covariance << c[0], c[3], c[4], c[3], c[1], c[5], c[4], c[5], c[2];
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(covariance);
-    const Eigen::Vector3d& values = solver.eigenvalues();
+    const auto [values, vectors] = principal_axes(covariance);
     if (!(values[2] > stands_out * stands_out * std::max(0.0, values[1]))) return std::nullopt;
-    const Vec3 axis = solver.eigenvectors().col(2);
+    const Vec3 axis = vectors.col(2);
     const auto facing = chunked_fold<Mean>(inner.size(), [&](Mean& part, std::size_t i) {
         part.add(std::pow(axis.dot(normal[static_cast<std::size_t>(inner[i])]), 2));
     });

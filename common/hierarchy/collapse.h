@@ -1,10 +1,9 @@
 #pragma once
 
+#include "base/decompositions.h"
 #include "base/random.h"
 #include "hierarchy/hierarchy.h"
 #include "hierarchy/quadric.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -107,9 +106,7 @@ inline double distance_from_ring(Index v, const Ring& ring, const Directions& di
         const Vec3 d = p[ring.vertex[j]] - mean;
         if (counts(j)) spread += d * d.transpose();
     }
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
-    axes.computeDirect(spread);
-    const Vec3 off = axes.eigenvectors().transpose() * (p[v] - mean);
+    const Vec3 off = principal_axes_in_closed_form(spread).vectors.transpose() * (p[v] - mean);
     return curve ? off.head(2).norm() : std::abs(off[0]);
 }
 

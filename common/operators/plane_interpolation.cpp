@@ -1,6 +1,7 @@
 #include "operators/plane_interpolation.h"
 
-#include <Eigen/Eigenvalues>
+#include "base/decompositions.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -24,13 +25,11 @@ bool PlaneInterpolation::project(const StarGeometry& star) {
     }
     const double size = spread.trace();
     if (!(size > 0) || !std::isfinite(1 / size)) return false;
-    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes;
-    axes.compute(spread / size);
-    const Vec3 square = axes.eigenvalues();  // ascending, sum 1
+    const auto [square, axes] = principal_axes(spread / size);  // ascending, sum 1
     if (!(square[1] > 1e-10) || square[0] > (1 - 1e-6) * square[1]) return false;
     const double scale = std::sqrt(n / size);
     for (int a = 0; a < 2; ++a) {
-        axis_[a] = scale * axes.eigenvectors().col(2 - a);
+        axis_[a] = scale * axes.col(2 - a);
         spread_[a] = n * square[2 - a];
     }
     sites_.resize(n);

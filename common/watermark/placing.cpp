@@ -1,15 +1,12 @@
 #include "watermark/placing.h"
 
+#include "base/decompositions.h"
 #include "base/median.h"
 #include "base/parallel.h"
 #include "measure/distance.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
 #include "mesh/validation.h"
-
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
 
 #include <algorithm>
 #include <array>
@@ -61,7 +58,7 @@ struct Moments {
         if (!(area > 0)) return;
         squares /= area;
         size = std::sqrt(squares.trace());
-        axes = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(squares).eigenvectors();
+        axes = principal_axes(squares).vectors;
         if (axes.determinant() < 0) axes.col(0) *= -1;
     }
 };
@@ -86,7 +83,7 @@ std::vector<Eigen::Affine3d> starts(const Mesh& mesh, const Mesh& onto) {
         const auto columns = [](const Positions& p) {
             return Eigen::Map<const Eigen::Matrix3Xd>(p[0].data(), 3, static_cast<Eigen::Index>(p.size()));
         };
-        all.emplace_back(Eigen::umeyama(columns(mesh.positions), columns(onto.positions)));
+        all.push_back(least_squares_similarity(columns(mesh.positions), columns(onto.positions)));
     }
     all.push_back(Eigen::Affine3d::Identity());
     const Moments from(mesh), to(onto);
@@ -165,7 +162,7 @@ private:
             b -= w * residual_[i].first * row_[i];
         }
         a.diagonal().array() += 1e-9 * std::max(a.trace(), 1e-300);  // a plane can slide, a sphere turn
-        return a.ldlt().solve(b);
+        return solve_symmetric(a, b);
     }
 
     /// Mean distance, those beyond a twentieth of the size counting as that.

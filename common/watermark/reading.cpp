@@ -1,6 +1,7 @@
 #include "watermark/reading.h"
 
 #include "base/blocks.h"
+#include "base/decompositions.h"
 #include "base/error.h"
 #include "base/median.h"
 #include "base/random.h"
@@ -148,7 +149,7 @@ void remove_nuisances(std::vector<Sample>& samples) {
     for (int k = 0; k < nuisances; ++k) unit[k] = unit[k] > 0 ? 1 / unit[k] : 0;
     a = unit.asDiagonal() * a * unit.asDiagonal();
     a.diagonal().array() += 1e-9;
-    const NuisanceRow part = unit.asDiagonal() * a.ldlt().solve(unit.asDiagonal() * b);
+    const NuisanceRow part = unit.asDiagonal() * solve_symmetric(a, unit.asDiagonal() * b);
     for (Sample& s : samples) s.offset -= part.dot(s.nuisance);
 }
 

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <complex>
@@ -87,8 +86,8 @@ TEST(Stiffness, IsSymmetricAndSemidefiniteWithRowsThatSumToZeroOnEveryMesh) {
         if (n > 700) continue;
         const Eigen::MatrixXd full = dense(c);
         EXPECT_EQ(full, full.transpose()) << name;
-        const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(full).eigenvalues();
-        EXPECT_GT(values.minCoeff(), -1e-14 * std::max(1.0, values.maxCoeff())) << name;
+        const Eigen::VectorXd pivots = full.ldlt().vectorD();  // as many negative ones as eigenvalues
+        EXPECT_GT(pivots.minCoeff(), -1e-14 * std::max(1.0, pivots.maxCoeff())) << name;
     }
 }
 

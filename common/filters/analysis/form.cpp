@@ -1,10 +1,9 @@
 #include "filters/analysis/form.h"
 
+#include "base/decompositions.h"
 #include "base/error.h"
 #include "base/reduce.h"
 #include "measure/measure.h"
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +90,7 @@ double improve(Form& form, const Cloud& cloud) {
         Eigen::MatrixXd a = now.a.topLeftCorner(unknowns, unknowns);
         a.diagonal() += damping * a.diagonal() + Eigen::VectorXd::Constant(unknowns, 1e-300);
         Unknowns step = Unknowns::Zero();
-        step.head(unknowns) = -a.ldlt().solve(now.b.head(unknowns));
+        step.head(unknowns) = -solve_symmetric(a, now.b.head(unknowns));
         if (!step.allFinite()) break;
         const Form next = moved(form, step);
         const Equations then = equations(next, cloud);
@@ -121,7 +120,7 @@ void start(Form& f, const Cloud& cloud) {
         a += cloud.weight[i] * row * row.transpose();
         b += cloud.weight[i] * row.head(d).squaredNorm() * row;
     }
-    const Eigen::VectorXd x = a.ldlt().solve(b);
+    const Eigen::VectorXd x = solve_symmetric(a, b);
     f.point = d == 3 ? Vec3(0.5 * x.head<3>()) : Vec3(0.5 * (x[0] * u + x[1] * v));
     f.radius = std::sqrt(std::max(0.0, x[d] + f.point.squaredNorm()));
 }
@@ -130,7 +129,7 @@ void start(Form& f, const Cloud& cloud) {
 Eigen::Matrix3d spread(const Array<Vec3>& vectors, const std::vector<double>& weight) {
     Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
     for (std::size_t i = 0; i < vectors.size(); ++i) s += weight[i] * vectors[i] * vectors[i].transpose();
-    return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(s).eigenvectors();
+    return principal_axes(s).vectors;
 }
 
 Array<Vec3> area_vectors(const Mesh& mesh) {

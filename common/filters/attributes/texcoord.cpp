@@ -1,10 +1,9 @@
 #include "filters/attributes/texcoord.h"
 
 #include "base/angles.h"
+#include "base/decompositions.h"
 #include "filters/channels.h"
 #include "measure/measure.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -41,8 +40,7 @@ Axes axes_of(const Mesh& mesh, const TexcoordOptions& o) {
     Axes x;
     x.origin = surface(mesh.faces, mesh.positions).centroid;
     if (o.axis == ProjectionAxis::principal) {
-        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(moments(mesh, x.origin));
-        const Eigen::Matrix3d v = solver.eigenvectors();  // by ascending variance
+        const Eigen::Matrix3d v = principal_axes(moments(mesh, x.origin)).vectors;  // by ascending variance
         const bool planar = o.projection == Projection::planar;
         x.axis = upright(v.col(planar ? 0 : 2));
         x.a = upright(v.col(planar ? 2 : 1));

@@ -1,10 +1,9 @@
 #include "filters/grid/grid_signal.h"
 
+#include "base/decompositions.h"
 #include "base/parallel.h"
 #include "measure/measure.h"
 #include "mesh/validation.h"
-
-#include <Eigen/Dense>
 
 #include <algorithm>
 #include <cmath>
@@ -84,7 +83,7 @@ void GridSignal::project_on_height() {
         const Vec3 r = rest(p) / largest;
         spread += r * r.transpose();
     }
-    axes_ = {Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2)};
+    axes_ = {principal_axes(spread).vectors.col(2)};
     Raster heights(grid_.rows, grid_.columns, 0);
     for (std::size_t p = 0; p < mask_.values.size(); ++p) heights.values[p] = axes_[0].dot(rest(p));
     samples_ = {std::move(heights)};
