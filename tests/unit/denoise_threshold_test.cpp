@@ -107,6 +107,21 @@ TEST(DenoiseThreshold, RemovesNoise) {
     }
 }
 
+// It was not seen at all, and stayed.
+TEST(DenoiseThreshold, RemovesNoiseAlongAnAxis) {
+    const Mesh truth = shapes::irregular_sphere(4000);
+    Mesh mesh = truth;
+    const double size = 0.2 * mean_edge_length(truth.faces, truth.positions);
+    shapes::Random random(1);
+    for (Vec3& p : mesh.positions) p.z() += size * gaussian(random);
+    const Error before = error_of(truth, mesh.positions);
+    for (const DenoiseOptions& options : every_way()) {
+        const Error after = error_of(truth, denoised(mesh, options));
+        EXPECT_LT(after.angle, 0.75 * before.angle);
+        EXPECT_LT(after.rms, before.rms);
+    }
+}
+
 // Soft thresholding left a scan with noise of a tenth of an edge length half as far again from the truth as it was.
 TEST(DenoiseThreshold, NeverHarms) {
     const std::vector<std::pair<std::string, Mesh>> truths = {{"sphere", shapes::irregular_sphere(2000)},

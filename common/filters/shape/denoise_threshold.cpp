@@ -159,8 +159,14 @@ Coefficients details_of(const Pyramid& pyramid, const Positions& p) {
     return pyramid.scheme().analyse(to_places(pyramid.hierarchy(), f));
 }
 
-/// The factor for the thresholds with the least risk; 0 if none is clearly better than to do nothing.
-double least_risk_factor(const Thresholding& thresholding, const Coefficients& c, const Coefficients& probed,
+/// What is done with thresholds.
+struct Choice {
+    double factor = 0;  ///< for all of them
+    double share = 0;   ///< of the way from the input to the result
+};
+
+/// The choice with the least risk; zeros if none is clearly better than to do nothing.
+Choice least_risk_choice(const Thresholding& thresholding, const Coefficients& c, const Coefficients& probed,
                          const Thresholds& thresholds, const NoisySurface& surface, double step,
                          const Progress& progress) {
     constexpr std::array<double, 6> factors = {2, 1.4, 1, 0.7, 0.5, 0.25};
@@ -168,7 +174,8 @@ double least_risk_factor(const Thresholding& thresholding, const Coefficients& c
     const double by_chance =
         (thresholding.rule() == Shrink::hard ? 6 : 3) / std::sqrt(static_cast<double>(surface.probe().size()));
     const double worth_edges = 0.9 - by_chance, worth_heights = 0.8 - by_chance;
-    double best = worth_edges + worth_heights, factor = 0;
+    double best = worth_edges + worth_heights;
+    Choice choice;
     for (const double& f : factors) {
         progress.report(static_cast<double>(&f - factors.data()) / factors.size(), "Choosing thresholds");
         const Positions after = thresholding.shrunk(c, thresholds, f, {}).positions;
@@ -176,9 +183,9 @@ double least_risk_factor(const Thresholding& thresholding, const Coefficients& c
         for (std::size_t i = 0; i < after.size(); ++i) response[i] = (response[i] - after[i]) / step;
         const NoisySurface::Expected e = surface.expected(after, response);
         if (e.edges < worth_edges && e.heights < worth_heights && e.edges + e.heights < best)
-            best = e.edges + e.heights, factor = f;
+            best = e.edges + e.heights, choice = {f, e.share};
     }
-    return factor;
+    return choice;
 }
 
 Outcome with_least_risk(const Pyramid& pyramid, const Positions& positions, const DenoiseOptions& options,
@@ -199,12 +206,14 @@ Outcome with_least_risk(const Pyramid& pyramid, const Positions& positions, cons
     for (std::size_t i = 0; i < p.size(); ++i) p[i] += step * surface.probe()[i];
     const Coefficients probed = details_of(pyramid, p);
     const Thresholds t = thresholding.by_risk(c, surface.deviation());
-    const double factor = options.strength * least_risk_factor(thresholding, c, probed, t, surface, step, progress);
+    const Choice choice = least_risk_choice(thresholding, c, probed, t, surface, step, progress);
+    const double factor = options.strength * choice.factor;
     if (!(factor > 0)) return out;
     out.thresholds.clear();
     tell_thresholds(t, factor, thresholding, last, out);
     Thresholding::Shrunk shrunk = thresholding.shrunk(c, t, factor, confidence);
-    out.positions = std::move(shrunk.positions);
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        out.positions[i] += choice.share * (shrunk.positions[i] - positions[i]);
     out.share_zeroed = std::move(shrunk.share_zeroed);
     return out;
 }

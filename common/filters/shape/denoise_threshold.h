@@ -12,7 +12,8 @@ namespace multires {
 /// and its order do not depend on the noise, and the positions are functions on it. The thresholds of a subband have
 /// the least estimated risk for its details (schemes/sure.h); all of them are then scaled by the factor for which the
 /// surface itself is expected to be nearest to the truth, its differences along edges and its positions alike
-/// (denoise_threshold_risk.h). If none is expected to be clearly nearer than the input, it stays as it is.
+/// (denoise_threshold_risk.h), and vertices go as far of the way there as gains even with the least noise there may be.
+/// If none is expected to be clearly nearer than the input, it stays as it is.
 /// @param given       threshold in mesh units or percent of the details, unless automatic
 /// @param confidence  #V or empty: each detail's threshold is scaled by 1 - confidence of its vertex
 /// @returns  #V positions

@@ -1,7 +1,8 @@
 #include "filters/shape/denoise_threshold_risk.h"
 
+#include "base/reduce.h"
 #include "denoise/risk.h"
-#include "denoise/whiteness.h"
+#include "denoise/white_share.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
 
@@ -11,12 +12,18 @@
 namespace multires {
 namespace {
 
-/// The share of the deviation that is believed: none below a whiteness that hardly any sample of noise has.
-double believed(double whiteness, Index vertices) {
-    constexpr double none = 0.83, all = 0.91;
-    const double by_chance = 1.5 / std::sqrt(static_cast<double>(std::max(1, vertices)));
-    return std::clamp((whiteness + by_chance - none) / (all - none), 0.0, 1.0);
-}
+/// Sums of risks of one candidate.
+struct Sum {
+    double constant = 0, linear = 0, quadratic = 0;
+
+    void add(const Risk& r) { constant += r.constant, linear += r.linear[0], quadratic += r.quadratic(0, 0); }
+    /// The largest share of the move that gains even if there is only this share of the noise's variance.
+    double safe_share(double certain) const {
+        return quadratic > 0 ? std::clamp(-2 * certain * linear / quadratic, 0.0, 1.0) : 0;
+    }
+    /// Of a share of the move, over that of none.
+    double at(double share) const { return 1 + share * (2 * linear + share * quadratic) / constant; }
+};
 
 }  // namespace
 
@@ -26,24 +33,29 @@ NoisySurface::NoisySurface(const Mesh& mesh, const Progress& progress) : mesh_(m
     const Incidence at = vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()));
     near_ = neighbours(mesh.faces, at);
     const double edge = mean_edge_length(mesh.faces, mesh.positions);
-    const SurfaceNoise noise = surface_noise(mesh.faces, mesh.positions, at, near_, edge);
-    if (!(noise.along_normals > rounding * edge)) return;
+    noise_ = surface_noise(mesh.faces, mesh.positions, at, near_, edge);
+    if (!(noise_.at_least > rounding * edge)) return;
     progress.report(0.5, "Measuring the noise");
-    const int steps = std::clamp(static_cast<int>(100 * noise.along_normals / edge), 3, 30);
+    const double strongest = noise_.axis ? noise_.axis->deviation : noise_.along_normals;
+    const int steps = std::clamp(static_cast<int>(100 * strongest / edge), 3, 30);
     smooth_ = taubin(near_, mesh.positions, steps);
     normal_ = vertex_normals(mesh.faces, smooth_);
-    deviation_ = noise.along_normals * believed(whiteness(near_, mesh.positions, normal_), near_.rows());
-    if (!(deviation_ > rounding * edge)) deviation_ = 0;
+    Mean square;
+    for (const Vec3& n : normal_) {
+        deviations_.push_back(noise_.along(n));
+        square.add(deviations_.back() * deviations_.back());
+    }
+    deviation_ = std::sqrt(square.value());
     if (!(deviation_ > 0)) return;
     progress.report(0.7, "Looking for noise within the surface");
-    all_directions_ = relax_within_surface(mesh.faces, mesh.positions, near_, noise, edge).noisy;
+    all_directions_ = relax_within_surface(mesh.faces, mesh.positions, near_, noise_, edge).noisy;
     make_probe();
 }
 
 void NoisySurface::make_probe() {
     probe_ = Positions(near_.rows(), Vec3::Zero());
     for (Index v = 0; v < near_.rows(); ++v) {
-        probe_[v] = deviation_ * gaussian(v, 1) * normal_[v];
+        probe_[v] = deviations_[v] * gaussian(v, 1) * normal_[v];
         if (!all_directions_ || near_.size(v) == 0) continue;
         const Vec3 edge = smooth_[near_.vertex[near_.offset[v]]] - smooth_[v];
         const Vec3 x = edge - normal_[v] * normal_[v].dot(edge);
@@ -53,12 +65,21 @@ void NoisySurface::make_probe() {
     }
 }
 
+double NoisySurface::certain(const Positions& after, const Positions& response) const {
+    Response moves(2 * after.size());
+    for (std::size_t i = 0; i < after.size(); ++i) {
+        moves[2 * i] = normal_[i].dot(after[i] - mesh_.positions[i]);
+        moves[2 * i + 1] = normal_[i].dot(response[i] - probe_[i]);
+    }
+    const double removed = white_share_removed(AlongNormals(near_, mesh_.positions, normal_, {}), near_, {moves},
+                                               Eigen::VectorXd::Ones(1), std::vector<std::uint8_t>(after.size(), 1));
+    return std::pow(noise_.at_least / deviation_, 2) * std::max(noise_.white, removed);
+}
+
 NoisySurface::Expected NoisySurface::expected(const Positions& after, const Positions& response) const {
     const std::size_t count = after.size();
-    const std::vector<double> deviation(count, deviation_);
     const std::vector<std::uint8_t> core(count, 1);
-    const Eigen::VectorXd all = Eigen::VectorXd::Ones(1);
-    double edges = 0, heights = 0, noise_edges = 0, noise_heights = 0;
+    Sum edges, heights;
     Response moves(2 * count);
     std::vector<double> probe(count);
     for (int c = 0; c < (all_directions_ ? 3 : 1); ++c) {
@@ -70,13 +91,14 @@ NoisySurface::Expected NoisySurface::expected(const Positions& after, const Posi
             moves[2 * i + 1] = axis.dot(response[i]) - probe[i];
             if (!all_directions_) other += way.squaredNorm() - moves[2 * i] * moves[2 * i];
         }
-        const Risks r = risks(near_, {moves}, deviation, probe, core);
-        edges += r.edges.at(all);
-        heights += r.heights.at(all) + other / static_cast<double>(count);
-        noise_edges += r.edges.constant;
-        noise_heights += r.heights.constant;
+        const Risks r = risks(near_, {moves}, deviations_, probe, core);
+        edges.add(r.edges);
+        heights.add(r.heights);
+        heights.quadratic += other / static_cast<double>(count);
     }
-    return {edges / noise_edges, heights / noise_heights};
+    const double least = certain(after, response);
+    const double share = std::min(edges.safe_share(least), heights.safe_share(least));
+    return {edges.at(share), heights.at(share), share};
 }
 
 }  // namespace multires

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/progress.h"
+#include "denoise/noise.h"
 #include "denoise/within_surface.h"
 
 namespace multires {
@@ -11,8 +12,7 @@ public:
     /// Cost: linear, as for surface_noise() and relax_within_surface()
     NoisySurface(const Mesh& mesh, const Progress& progress);
 
-    /// Of the noise along the normals, mesh units; 0 if there is next to none, or if what there is is not spread as
-    /// Gaussian noise is: a threshold cannot tell impulses and steps of quantisation from shape.
+    /// Of the noise along the normals, root mean square, mesh units; 0 if it is not certain that there is any.
     double deviation() const { return deviation_; }
     /// The noise is as strong within the surface.
     bool all_directions() const { return all_directions_; }
@@ -22,10 +22,11 @@ public:
     /// A sample of the noise, #V by 3. It turns with the mesh.
     const Positions& probe() const { return probe_; }
 
-    /// Mean square errors that are expected, over those of the noise.
+    /// Mean square errors that are expected, over those of the noise, of a share of the way to the result.
     struct Expected {
         double edges = 1;    ///< of the differences along edges, which is what normals are made of
         double heights = 1;  ///< of the positions
+        double share = 0;    ///< so much that both fall even if there is no more noise than there is at least
     };
     /// Stein's estimate (denoise/risk.h), of the heights along the normals, where all else that moves is an error, or
     /// of the positions if there is noise in all directions.
@@ -36,10 +37,14 @@ public:
 
 private:
     void make_probe();
+    /// Share of the variance of the noise that there is at least, seen by what is taken out of it.
+    double certain(const Positions& after, const Positions& response) const;
 
     const Mesh& mesh_;
     Neighbours near_;
     double deviation_ = 0;
+    SurfaceNoise noise_;
+    std::vector<double> deviations_;  ///< #V: along the normals
     bool all_directions_ = false;
     Positions smooth_, probe_;
     Array<Vec3> normal_;
