@@ -197,27 +197,27 @@ const Plugin& table() {
                                 "Sdr of the waves between two wavelengths, over a fitted form or, on any shape, over "
                                 "its low pass. Changes nothing.<br>") +
                         cite_iso_25178,
-                    MenuClass::measure, faces, none, none, roughness_returns},
+                    MenuClass::measure, faces | closed_seams, none, none, roughness_returns},
                    roughness_defaults, bind_roughness, roughness),
             filter(
                 {"Multiresolution: Relief", "compute_scalar_multires_relief_per_vertex",
                  std::string("Signed height over the low pass as vertex quality, in mesh units: carvings, tool marks, "
                              "wear. The band is chosen from the mesh unless one is given.<br>") +
                      cite_iso_16610,
-                 MenuClass::quality, faces, none, vertex_quality | vertex_color, relief_returns},
+                 MenuClass::quality, faces | closed_seams, none, vertex_quality | vertex_color, relief_returns},
                 relief_defaults, bind_relief, run_relief),
             filter({"Multiresolution: Details by Scale", "compute_custom_multires_scales",
                     std::string("The signed detail of up to 16 bands of wavelengths as custom attributes of the "
                                 "vertices, and as quality the wavelength at which a vertex stands out most: feature "
                                 "vectors for classification, and for finding writing.<br>") +
                         cite_mara + cite_guskov,
-                    MenuClass::quality, faces, none, vertex_quality | custom_attributes, scales_returns},
+                    MenuClass::quality, faces | closed_seams, none, vertex_quality | custom_attributes, scales_returns},
                    scales_defaults, bind_scales, scale_details),
             filter({"Multiresolution: Select Features", "compute_selection_multires_features",
                     std::string("Selects the lines along which a surface is sharp at every scale, with noise, too, and "
                                 "cleans them: branches out, gaps closed.<br>") +
                         cite_hubeli,
-                    MenuClass::quality, faces, none, vertex_selection | edge_selection, feature_returns},
+                    MenuClass::quality, faces | closed_seams, none, vertex_selection | edge_selection, feature_returns},
                    features_defaults, bind_feature_lines, feature_lines),
         }};
     return plugin;

@@ -150,7 +150,7 @@ const Plugin& table() {
                     std::string("Removes everything finer than a wavelength and keeps everything coarser, in one pass, "
                                 "without shrinking the shape.<br>") +
                         cite_guskov,
-                    MenuClass::smoothing, faces, reads, vertex_positions,
+                    MenuClass::smoothing, faces | closed_seams, reads, vertex_positions,
                     band_returns + moved_returns + change_returns},
                    low_pass_defaults, bind_low_pass, run_low_pass),
             filter(
@@ -158,20 +158,22 @@ const Plugin& table() {
                  std::string("Removes the structure between two wavelengths; finer engraving and the coarse shape stay."
                              "<br>") +
                      cite_guskov + cite_roy,
-                 MenuClass::smoothing, faces, reads, vertex_positions, band_returns + moved_returns + change_returns},
+                 MenuClass::smoothing, faces | closed_seams, reads, vertex_positions,
+                 band_returns + moved_returns + change_returns},
                 band_defaults, bind_stop_band, run_band),
             filter(
                 {"Multiresolution: Enhance Band", "apply_coord_multires_enhance",
                  std::string("Multiplies the structure between two wavelengths by a gain: brings out what is worn, or "
                              "weakens what disturbs.<br>") +
                      cite_guskov + cite_roy,
-                 MenuClass::smoothing, faces, reads, vertex_positions, band_returns + moved_returns + change_returns},
+                 MenuClass::smoothing, faces | closed_seams, reads, vertex_positions,
+                 band_returns + moved_returns + change_returns},
                 enhance_defaults, bind_enhance, run_band),
             filter({"Multiresolution: Equalizer", "apply_coord_multires_equalizer",
                     std::string("Eight gains for eight bands of wavelengths from fine to coarse, given in the mesh's "
                                 "unit. With all gains at 1 the mesh comes back unchanged.<br>") +
                         cite_guskov,
-                    MenuClass::smoothing, faces, reads, vertex_positions,
+                    MenuClass::smoothing, faces | closed_seams, reads, vertex_positions,
                     band_returns + moved_returns + change_returns},
                    equalizer_defaults, bind_equalizer, run_equalizer),
             filter({"Multiresolution: Unsharp (Single Level)", "apply_coord_multires_unsharp",
@@ -179,7 +181,7 @@ const Plugin& table() {
                         "Strengthens (or weakens) what some steps of relaxation would take away, without a pyramid. "
                         "Best for small meshes; scans with noise are better served by the bands.<br>") +
                         cite_guskov,
-                    MenuClass::smoothing, faces, reads, vertex_positions, change_returns},
+                    MenuClass::smoothing, faces | closed_seams, reads, vertex_positions, change_returns},
                    unsharp_defaults, bind_unsharp, unsharp),
         }};
     return plugin;

@@ -168,7 +168,7 @@ const Plugin& table() {
                         "Denoising\"</b>, IEEE TVCG 2007.<br>See <i>Zheng, Fu, Au, Tai</i>, <b>\"Bilateral Normal "
                         "Filtering for Mesh Denoising\"</b>, IEEE TVCG 2011.<br>See <i>Ramani, Blu, Unser</i>, "
                         "<b>\"Monte-Carlo SURE\"</b>, IEEE Transactions on Image Processing 2008.",
-                    MenuClass::smoothing, faces, vertex_quality, vertex_positions,
+                    MenuClass::smoothing, faces | closed_seams, vertex_quality, vertex_positions,
                     denoise_returns + change_returns + thresholding_returns},
                    denoise_defaults, bind_denoise, denoise),
             filter({"Multiresolution: Denoise Attributes", "apply_attributes_multires_denoise",

@@ -250,14 +250,15 @@ const Plugin& table() {
                     std::string("Turns, scales and moves the selected part of a layer; the surface around it follows "
                                 "smoothly up to a distance along the surface, and its detail turns with it.<br>") +
                         cite_guskov,
-                    MenuClass::remeshing, faces, none, vertex_positions | vertex_quality, change_returns},
+                    MenuClass::remeshing, faces | closed_seams, none, vertex_positions | vertex_quality,
+                    change_returns},
                    move_region_defaults, bind_move_region, move_region),
             filter({"Multiresolution: Falloff to Quality", "compute_scalar_multires_falloff_per_vertex",
                     std::string("Stores in the vertex quality a smooth function on the surface that is 1 on the "
                                 "selection and 0 beyond a distance from it: the share of the motion that Move Region "
                                 "gives each vertex, and a mask for the other filters.<br>") +
                         cite_guskov,
-                    MenuClass::quality, faces, none, vertex_quality, falloff_returns},
+                    MenuClass::quality, faces | closed_seams, none, vertex_quality, falloff_returns},
                    falloff_defaults, bind_falloff, falloff_quality),
             filter(
                 {"Multiresolution: Smooth Base as Layer", "generate_multires_base",
@@ -273,7 +274,7 @@ const Plugin& table() {
                                 "shape, along a field of normals without a jump, so they follow what coarser bands "
                                 "do.<br>") +
                         cite_vorsatz,
-                    MenuClass::remeshing, faces, vertex_quality, vertex_positions,
+                    MenuClass::remeshing, faces | closed_seams, vertex_quality, vertex_positions,
                     bands_returns + base_point_returns + pyramid_returns + change_returns},
                    bands_defaults, bind_bands, apply_bands),
             filter(

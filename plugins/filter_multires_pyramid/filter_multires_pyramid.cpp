@@ -187,7 +187,8 @@ const Plugin& table() {
                              "the distance to where the vertex would be without the band, or its signed part along the "
                              "normal, in mesh units.<br>") +
                      cite_guskov,
-                 MenuClass::quality, faces, none, vertex_quality, detail_returns + gains_returns + pyramid_returns},
+                 MenuClass::quality, faces | closed_seams, none, vertex_quality,
+                 detail_returns + gains_returns + pyramid_returns},
                 detail_defaults, bind_detail, run_detail),
             filter(
                 {"Multiresolution: Difference to Layer", "compute_scalar_multires_difference_per_vertex",

@@ -2,12 +2,14 @@
 
 #include "shared/parameters.h"
 
+#include "filters/across_seams.h"
 #include "filters/filter.h"
 #include "filters/result_hash.h"
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,7 @@ enum Parts : std::uint32_t {
     custom_attributes = 128,  ///< of vertices, all that a Layer can hold
     vertex_selection = 256,
     edge_selection = 512,
+    closed_seams = 1024,  ///< pre: vertices along seams count as one (filters/across_seams.h), not that there are any
 };
 
 /// Where the filter appears in the host's menu.
@@ -70,15 +73,19 @@ struct Filter {
 template <class Options, class Given>
 Filter filter(Filter row, Options (*defaults)(const Layer*), void (*bind)(Parameters&, Options&),
               Result (*apply)(const Given&, const Options&, Session&)) {
-    const bool changes = row.changes != none;
+    const bool changes = row.changes != none, seams = (row.needs & closed_seams) != 0;
     row.call = [=](const Layer* layer) {
-        const auto options = std::make_shared<Options>(defaults(layer));
+        const std::optional<Layer> closed = seams && layer ? closed_layer(*layer) : std::nullopt;
+        const auto options = std::make_shared<Options>(defaults(closed ? &*closed : layer));
         Call call;
         bind(call.parameters, *options);
         call.run = [=](const Inputs& inputs, Session& session) {
             Result result = [&] {
                 if constexpr (std::is_same_v<Given, Inputs>)
                     return apply(inputs, *options, session);
+                else if (seams)
+                    return across_seams(inputs.current, session,
+                                        [&](const Layer& layer) { return apply(layer, *options, session); });
                 else
                     return apply(inputs.current, *options, session);
             }();

@@ -119,7 +119,7 @@ TEST_P(TableRow, InfoEndsWithACitation) {
 TEST_P(TableRow, MasksHoldPartsThatMakeSense) {
     constexpr std::uint32_t all = (edge_selection << 1) - 1;
     constexpr std::uint32_t attributes = vertex_quality | vertex_color | vertex_texcoord | wedge_texcoord;
-    EXPECT_EQ(filter().needs & ~(faces | attributes), 0u);
+    EXPECT_EQ(filter().needs & ~(faces | closed_seams | attributes), 0u);
     EXPECT_EQ(filter().reads & ~(attributes | custom_attributes), 0u);
     EXPECT_EQ(filter().changes & ~all, 0u);
     EXPECT_TRUE(filter().call);

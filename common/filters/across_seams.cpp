@@ -1,0 +1,88 @@
+#include "filters/across_seams.h"
+
+#include "filters/original.h"
+#include "mesh/seams.h"
+
+#include <algorithm>
+
+namespace multires {
+namespace {
+
+/// The values of what vertices became, at each of them.
+template <class Values>
+Values spread(const JoinedVertices& seams, const Values& of_joined, std::size_t width = 1) {
+    Values out(seams.joined.size() * width);
+    for (std::size_t v = 0; v < seams.joined.size(); ++v)
+        std::copy_n(of_joined.begin() + static_cast<std::ptrdiff_t>(seams.joined[v] * width), width,
+                    out.begin() + static_cast<std::ptrdiff_t>(v * width));
+    return out;
+}
+
+/// The values of the first vertices of each place.
+template <class Values>
+Values gathered(const JoinedVertices& seams, const Values& all, std::size_t width = 1) {
+    Values out(seams.first.size() * width);
+    for (std::size_t v = 0; v < seams.first.size(); ++v)
+        std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(seams.first[v] * width), width,
+                    out.begin() + static_cast<std::ptrdiff_t>(v * width));
+    return out;
+}
+
+template <class Values>
+Values least(const JoinedVertices& seams, const Values& all) {
+    Values out = gathered(seams, all);
+    for (std::size_t v = 0; v < all.size(); ++v) out[seams.joined[v]] = std::min(out[seams.joined[v]], all[v]);
+    return out;
+}
+
+Layer closed(const JoinedVertices& seams, const Layer& layer) {
+    Layer out = layer;
+    out.mesh.positions = gathered(seams, layer.mesh.positions);
+    for (Face& f : out.mesh.faces)
+        for (Index& v : f) v = seams.joined[v];
+    if (!layer.selected_vertex.empty()) out.selected_vertex = least(seams, layer.selected_vertex);
+    for (Attribute& a : out.attributes)
+        a.values = a.kind == AttributeKind::quality ? least(seams, a.values) : gathered(seams, a.values, a.width);
+    return out;
+}
+
+/// The original of the closed layer, if that of the layer is its own.
+std::shared_ptr<const Original> closed_original(const JoinedVertices& seams, const Layer& layer, const Layer& joined,
+                                                const std::shared_ptr<const Original>& original) {
+    if (!original || !original->includes(layer.mesh)) return original;
+    const auto out = std::make_shared<Original>(Mesh{gathered(seams, original->positions()), joined.mesh.faces});
+    out->note(joined.mesh.positions, joined.mesh.faces);
+    return out;
+}
+
+}  // namespace
+
+std::optional<Layer> closed_layer(const Layer& layer) {
+    const JoinedVertices seams = join_seams(layer.mesh);
+    if (seams.first.empty()) return std::nullopt;
+    return closed(seams, layer);
+}
+
+Result across_seams(const Layer& layer, Session& session, const std::function<Result(const Layer&)>& filter) {
+    const JoinedVertices seams = join_seams(layer.mesh);
+    if (seams.first.empty()) return filter(layer);
+    const Layer joined = closed(seams, layer);
+    const std::shared_ptr<const Original> original = session.original;
+    session.original = closed_original(seams, layer, joined, original);
+    Result result = filter(joined);
+    session.original = original;
+    if (result.positions) {
+        Positions all = spread(seams, *result.positions);
+        for (std::size_t v = 0; v < all.size(); ++v)  // 0 and -0 are one place
+            if (all[v] == layer.mesh.positions[v]) all[v] = layer.mesh.positions[v];
+        result.positions = std::move(all);
+    }
+    if (result.quality) result.quality = spread(seams, *result.quality);
+    for (Attribute& a : result.attributes) a.values = spread(seams, a.values, a.width);
+    if (result.selected_vertex) result.selected_vertex = spread(seams, *result.selected_vertex);
+    result.report.say(std::to_string(layer.mesh.positions.size() - joined.mesh.positions.size()) +
+                      " vertices along seams were taken for one with those at the same place.");
+    return result;
+}
+
+}  // namespace multires

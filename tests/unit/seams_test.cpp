@@ -1,0 +1,189 @@
+// Meshes that are cut along seams, as exporters leave them, and filters across the cuts.
+#include "filters/across_seams.h"
+
+#include "all_tables.h"
+#include "filters/original.h"
+#include "filters/shape/band_filters.h"
+#include "given.h"
+#include "measure/measure.h"
+#include "mesh/seams.h"
+#include "mesh/validation.h"
+
+#include "filter_fixtures.h"
+
+#include <cmath>
+
+namespace multires {
+
+using namespace fixtures;
+
+namespace {
+
+/// A mesh whose vertices between two sets of faces are there twice; the copies come last.
+Mesh cut(const Mesh& mesh, bool (*on_other_side)(const Vec3&)) {
+    Mesh out = mesh;
+    std::vector<Index> copy(mesh.positions.size(), -1);
+    std::vector<std::uint8_t> kept(mesh.positions.size(), 0);
+    const auto other = [&](const Face& f) {
+        return on_other_side(mesh.positions[f[0]] + mesh.positions[f[1]] + mesh.positions[f[2]]);
+    };
+    for (const Face& f : mesh.faces)
+        if (!other(f))
+            for (const Index v : f) kept[v] = 1;
+    for (Face& f : out.faces)
+        if (other(f))
+            for (Index& v : f) {
+                if (!kept[v]) continue;
+                if (copy[v] < 0)
+                    copy[v] = static_cast<Index>(out.positions.size()), out.positions.push_back(mesh.positions[v]);
+                v = copy[v];
+            }
+    return out;
+}
+
+bool right(const Vec3& p) { return p.x() > 0; }
+
+std::vector<const plugin::Filter*> closing() {
+    std::vector<const plugin::Filter*> all;
+    for (const plugin::Filter* f : plugin::all_filters())
+        if (f->needs & plugin::closed_seams) all.push_back(f);
+    return all;
+}
+
+}  // namespace
+
+TEST(Seams, AreClosedWhereTheMeshWasCut) {
+    const Mesh whole = shapes::scan(2000), two = cut(whole, right);
+    ASSERT_GT(two.positions.size(), whole.positions.size() + 50);
+    const JoinedVertices seams = join_seams(two);
+    ASSERT_EQ(seams.first.size(), whole.positions.size());
+    for (std::size_t v = 0; v < two.positions.size(); ++v)
+        EXPECT_EQ(two.positions[v], whole.positions[seams.joined[v]]);
+    Faces faces = two.faces;
+    for (Face& f : faces)
+        for (Index& v : f) v = seams.joined[v];
+    EXPECT_EQ(faces, whole.faces);
+}
+
+TEST(Seams, OfFacesThatShareNoVerticesMakeASurface) {
+    const Mesh soup = shapes::duplicate_vertices();
+    const JoinedVertices seams = join_seams(soup);
+    Mesh joined;
+    for (const Index v : seams.first) joined.positions.push_back(soup.positions[v]);
+    for (const Face& f : soup.faces)
+        joined.faces.push_back({seams.joined[f[0]], seams.joined[f[1]], seams.joined[f[2]]});
+    const InputCounts counts = count_input(joined);
+    EXPECT_EQ(counts.boundary_edges, 0);
+    EXPECT_EQ(counts.non_manifold_vertices, 0);
+    EXPECT_EQ(counts.vertices, counts.faces / 2 + 2);
+}
+
+TEST(Seams, AreNotSeenWhereThereAreNone) {
+    for (const auto& [name, mesh] : every_class()) {
+        if (name == "duplicate_vertices") continue;
+        EXPECT_TRUE(join_seams(mesh).first.empty()) << name;
+    }
+    Mesh twice = shapes::plane(8);  // one on the other, and back to back with it
+    for (const bool turned : {false, true}) {
+        Mesh both = twice;
+        const Index n = static_cast<Index>(twice.positions.size());
+        for (const Vec3& p : twice.positions) both.positions.push_back(p);
+        for (const Face& f : twice.faces)
+            both.faces.push_back(turned ? Face{n + f[0], n + f[2], n + f[1]} : Face{n + f[0], n + f[1], n + f[2]});
+        EXPECT_TRUE(join_seams(both).first.empty()) << turned;
+    }
+    // Three sheets at one edge, and two triangles that touch at a vertex.
+    EXPECT_TRUE(
+        join_seams(
+            {{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 0, 0}, {1, 0, 0}, {0, -1, 0}},
+             {{0, 1, 2}, {4, 3, 5}, {7, 6, 8}}})
+            .first.empty());
+    EXPECT_TRUE(
+        join_seams({{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {3, 4, 5}}})
+            .first.empty());
+    const double nan = std::nan("");
+    EXPECT_TRUE(
+        join_seams({{{nan, 0, 0}, {1, 0, 0}, {0, 1, 0}, {nan, 0, 0}, {1, 0, 0}, {0, 0, 1}}, {{0, 1, 2}, {4, 3, 5}}})
+            .first.empty());
+}
+
+// Enhance tore a doll that was cut in two apart by seven edges.
+TEST(Seams, DoNotChangeWhatFiltersDo) {
+    const Mesh whole = shapes::scan(1500), two = cut(whole, right);
+    const JoinedVertices seams = join_seams(two);
+    ASSERT_GE(closing().size(), 12u);
+    for (const plugin::Filter* filter : closing()) {
+        SCOPED_TRACE(filter->python_name);
+        const auto layer = [&](const Mesh& mesh) {
+            Layer out = layer_of(mesh);
+            for (const Vec3& p : mesh.positions) out.selected_vertex.push_back(p.z() > 0.3);
+            return out;
+        };
+        Session one, other;
+        const Layer expected_of = layer(whole), given = layer(two);
+        const Result expected = plugin::run(*filter, expected_of, one, {}),
+                     found = plugin::run(*filter, given, other, {});
+        for (std::size_t v = 0; v < two.positions.size(); ++v) {
+            const std::size_t w = static_cast<std::size_t>(seams.joined[v]);
+            if (expected.positions) {
+                ASSERT_EQ((*found.positions)[v], (*expected.positions)[w]);
+            }
+            if (expected.quality) {
+                ASSERT_EQ((*found.quality)[v], (*expected.quality)[w]);
+            }
+            if (expected.selected_vertex) {
+                ASSERT_EQ((*found.selected_vertex)[v], (*expected.selected_vertex)[w]);
+            }
+        }
+        ASSERT_EQ(found.attributes.size(), expected.attributes.size());
+        for (std::size_t a = 0; a < found.attributes.size(); ++a) {
+            const Attribute &f = found.attributes[a], &e = expected.attributes[a];
+            for (std::size_t v = 0; v < two.positions.size(); ++v)
+                for (int c = 0; c < e.width; ++c)
+                    ASSERT_EQ(f.values[v * e.width + c], e.values[seams.joined[v] * e.width + c]);
+        }
+    }
+}
+
+TEST(Seams, MoveOnlyWhereAllTheirVerticesAreSelected) {
+    const Mesh whole = shapes::scan(1500);
+    Layer layer = layer_of(cut(whole, right));
+    const std::size_t before = whole.positions.size();
+    layer.selected_vertex.assign(layer.mesh.positions.size(), 0);
+    std::fill_n(layer.selected_vertex.begin(), before, 1);
+    LowPassOptions options;
+    options.cutoff = 5 * mean_edge_length(whole.faces, whole.positions);
+    options.region.selected = true;
+    Session session;
+    const Result result = across_seams(layer, session, [&](const Layer& l) { return low_pass(l, options, session); });
+    const JoinedVertices seams = join_seams(layer.mesh);
+    for (std::size_t v = before; v < layer.mesh.positions.size(); ++v) {
+        EXPECT_EQ((*result.positions)[v], layer.mesh.positions[v]);
+        EXPECT_EQ((*result.positions)[seams.first[seams.joined[v]]], layer.mesh.positions[v]);
+    }
+    EXPECT_GT(largest_distance(*result.positions, layer.mesh.positions), 0);
+}
+
+TEST(Seams, KeepTheOriginalTheyCameFrom) {
+    const Mesh whole = shapes::scan(1500);
+    Layer layer = layer_of(cut(whole, right));
+    LowPassOptions options;
+    options.cutoff = 5 * mean_edge_length(whole.faces, whole.positions);
+    const auto call = [&](std::shared_ptr<const Original> original) {
+        Session session;
+        session.original = std::move(original);
+        const std::shared_ptr<const Original> given = session.original;
+        Result result = across_seams(layer, session, [&](const Layer& l) { return low_pass(l, options, session); });
+        EXPECT_EQ(session.original, given);
+        return std::pair(std::move(result), original_after(given.get(), layer.mesh, *result.positions));
+    };
+    const auto [first, original] = call(nullptr);
+    layer.mesh.positions = *first.positions;
+    options.relative_to = RelativeTo::original;
+    const auto [second, same] = call(original);
+    EXPECT_LE(largest_distance(*second.positions, *first.positions), 1e-12);
+    layer.mesh.positions[0].x() += 0.1;
+    EXPECT_NE(refusal([&] { call(same); }).find("relative_to"), std::string::npos);
+}
+
+}  // namespace multires
