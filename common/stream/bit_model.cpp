@@ -27,25 +27,28 @@ private:
     std::array<double, size> value_;
 };
 
-constexpr float most_seen = 250;
+constexpr double brief = 32;  ///< bits that weights learn from in haste
 
 }  // namespace
 
-template <int contexts>
-BitModel<contexts>::BitModel(const std::array<int, contexts>& sizes, int sets, double rate) : rate_(rate) {
+template <int contexts, int experts>
+BitModel<contexts, experts>::BitModel(const std::array<int, contexts>& sizes, int sets, const Learning& learning)
+    : learning_(learning) {
     for (int i = 0; i < contexts; ++i) slots_[i].resize(sizes[i]);
     Weights start;
-    start.fill(contexts > 1 ? 1.3 / (contexts + 1) : 1);
-    start[contexts] = 0;
+    start.weight.fill((contexts > 1 ? 1.3 / (contexts + 1) : 1) / (experts > 0 ? 2 : 1));
+    start.weight[contexts] = 0;
+    for (int i = contexts + 1; i < inputs; ++i) start.weight[i] = 1.0 / experts;
     weights_.assign(sets, start);
 }
 
-template <int contexts>
-bool BitModel<contexts>::code(BitCoder& coder, bool bit, const std::array<int, contexts>& context, int set) {
+template <int contexts, int experts>
+bool BitModel<contexts, experts>::code(BitCoder& coder, bool bit, const std::array<int, contexts>& context, int set,
+                                       const std::array<double, experts>& opinion) {
     static const Stretch stretch;
     std::array<Slot*, contexts> slot;
-    std::array<double, contexts + 1> input;
-    Weights& w = weights_[set];
+    std::array<double, inputs> input;
+    std::array<double, inputs>& w = weights_[set].weight;
     double dot = 0;
     for (int i = 0; i < contexts; ++i) {
         slot[i] = &slots_[i][context[i]];
@@ -53,24 +56,26 @@ bool BitModel<contexts>::code(BitCoder& coder, bool bit, const std::array<int, c
         dot += w[i] * input[i];
     }
     input[contexts] = 0.3;
-    dot += w[contexts] * input[contexts];
+    for (int i = 0; i < experts; ++i) input[contexts + 1 + i] = opinion[i];
+    for (int i = contexts; i < inputs; ++i) dot += w[i] * input[i];
     const double p = 1 / (1 + exponential(-dot));
     const double scaled = std::min(std::max(p * 65536, 24.0), 65536 - 24.0);
     bit = coder.code(bit, static_cast<std::uint32_t>(scaled));
     const double miss = (bit ? 1 : 0) - p;
-    for (int i = 0; i <= contexts; ++i) w[i] += rate_ * miss * input[i];
+    double rate = learning_.rate;
+    if (learning_.haste > 0) rate *= 1 + learning_.haste * brief / (brief + weights_[set].seen++);
+    for (int i = 0; i < inputs; ++i) w[i] += rate * miss * input[i];
     for (Slot* s : slot) {
         s->one += ((bit ? 1.0F : 0.0F) - s->one) / (s->count + 1.6F);
-        if (s->count < most_seen) s->count += 1;
+        if (s->count < learning_.memory) s->count += 1;
     }
     return bit;
 }
 
-template class BitModel<2>;
 template class BitModel<3>;
 template class BitModel<4>;
 template class BitModel<5>;
-template class BitModel<6>;
 template class BitModel<7>;
+template class BitModel<3, 2>;
 
 }  // namespace multires::stream

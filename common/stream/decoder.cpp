@@ -58,6 +58,7 @@ bool Decoder::take_piece() {
         if (there <= n) return false;
         require(buffer_[n] >= 1 && buffer_[n] <= newest_version,
                 "this .mrm file is of a version that is not known here");
+        version_ = buffer_[n];
         at_ = n + 1;
         stage_ = Stage::header;
         return true;
@@ -123,7 +124,7 @@ void Decoder::take_base(ByteReader& in) {
     std::vector<Cell> cells;
     Faces faces;
     unpack_base(in, header_, cells, faces);
-    progress_ = std::make_unique<Progress>(std::move(cells), faces, header_.base_bits, header_.vertices);
+    progress_ = std::make_unique<Progress>(std::move(cells), faces, header_.base_bits, header_.vertices, version_);
     error_ = header_.step * (1 << header_.bits);
     stage_ = Stage::body;
     check_limits();

@@ -61,6 +61,7 @@ private:
     bool satisfied_ = false;
     Bytes buffer_;
     std::size_t at_ = 0, taken_ = 0;
+    int version_ = newest_version;
     Header header_;
     std::unique_ptr<Progress> progress_;
     Columns columns_;

@@ -76,7 +76,7 @@ public:
         ByteWriter header;
         header_.write(header);
         Bytes out(signature, signature + sizeof signature);
-        out.push_back(header_.version());
+        out.push_back(newest_version);
         for (const Bytes& part : {framed(Piece::header, header.bytes()), body_.bytes()})
             out.insert(out.end(), part.begin(), part.end());
         return out;
@@ -113,7 +113,7 @@ private:
         const Faces faces = plan_->base_faces();
         header_.base_faces = static_cast<Index>(faces.size());
         write(Piece::base, packed_base(cells, faces));
-        progress_ = std::make_unique<Progress>(cells, faces, header_.base_bits, header_.vertices);
+        progress_ = std::make_unique<Progress>(cells, faces, header_.base_bits, header_.vertices, newest_version);
         write_attributes();
     }
 

@@ -23,22 +23,40 @@ double over(double x, Index n) {
 /// log2 of a ratio of positive numbers in steps of a third of an octave.
 int ratio_bucket(double a, double b) { return b > 0 ? clamp(octave_steps(a / b, 3) + buckets / 2, buckets - 1) : 0; }
 
+/// How far the middle of a new vertex's ring is from the parent, relative to how far the ring extends: vertices go to
+/// near parents.
+/// @param sum      of the rays from the parent to the others in the ring
+/// @param squares  sum of their squares
+inline int nearness(const Vec3& sum, double squares, Index count) {
+    const double middle = dot(sum, sum);
+    return ratio_bucket(middle, count * squares - middle);
+}
+
 }  // namespace
 
 void StarShape::take(const StarMesh& mesh, Index u, Index batch) {
     mesh.star(u, star);
     const Index d = star.faces();
-    taken.resize(d), area.resize(d), area_to.resize(d + 1), normal.resize(d);
+    taken.resize(d);
+    faces_taken = 0;
+    for (Index i = 0; i < d; ++i) {
+        taken[i] = mesh.mark(StarMesh::face_of(star.leaving[i])) == batch;
+        faces_taken += taken[i];
+    }
+}
+
+void StarShape::measure(const StarMesh& mesh, Index u) {
+    const Index d = star.faces();
+    area.resize(d), area_to.resize(d + 1), normal.resize(d), ray.resize(d + 1), square.resize(d + 1);
     valence.resize(d + 1), length.resize(d + 1), bend.resize(d + 1), cotangent.resize(d + 1);
     area_to[0] = bend[0] = bend[d] = cotangent[0] = 0;
     const Vec3& centre = mesh.point(u);
     Vec3 b = mesh.point(star.spoke[0]) - centre;
     for (Index i = 0; i < d; ++i) {
-        taken[i] = mesh.mark(StarMesh::face_of(star.leaving[i])) == batch;
         const Vec3 a = b;
         b = mesh.point(star.spoke[i + 1]) - centre;
         valence[i] = mesh.valence(star.spoke[i]);
-        length[i] = stream::length(a);
+        ray[i] = a, square[i] = dot(a, a), length[i] = std::sqrt(square[i]);
         normal[i] = cross(a, b);
         const double twice = stream::length(normal[i]);
         cotangent[i + 1] = 0;
@@ -52,7 +70,7 @@ void StarShape::take(const StarMesh& mesh, Index u, Index batch) {
         if (i > 0) bend[i] = 1 - dot(normal[i - 1], normal[i]);
     }
     valence[d] = mesh.valence(star.spoke[d]);
-    length[d] = stream::length(b);
+    ray[d] = b, square[d] = dot(b, b), length[d] = std::sqrt(square[d]);
     if (star.closed) {
         cotangent[0] = cotangent[d] = cotangent[0] + cotangent[d];
         bend[0] = bend[d] = 1 - dot(normal[d - 1], normal[0]);
@@ -60,7 +78,7 @@ void StarShape::take(const StarMesh& mesh, Index u, Index batch) {
     total = area_to[d];
 }
 
-FanModel::FanModel() : is_it_({64, 64 * 16, 16 * 16, 16 * 64}, 16) {
+FanModel::FanModel(bool first_models) : first_models_(first_models), is_it_({64, 64 * 16, 16 * 16, 16 * 64}, 16) {
     weights_.assign(features * 1024, 0);
     squares_.assign(weights_.size(), 1);
 }
@@ -87,7 +105,9 @@ void FanModel::rank(const StarShape& shape) {
                 add(shape, fan, inner);
             }
         }
-    find_shares();
+    evidence_ = -20;
+    for (const double x : score_) evidence_ = std::max(evidence_, x);
+    if (first_models_) find_shares();
 }
 
 /// Up to their sum, that is: the quotients are only wanted if one of the fans is.
@@ -102,7 +122,7 @@ void FanModel::find_shares() {
     }
     sum_ = 0;
     for (const double x : share_) sum_ += x;
-    evidence_ = candidates_.empty() ? -20 : most + 0.6931471805599453 * logarithm(sum_);
+    if (first_models_ && count > 0) evidence_ = most + 0.6931471805599453 * logarithm(sum_);
 }
 
 void FanModel::add(const StarShape& s, const Fan& fan, const Inner& inner) {
@@ -130,7 +150,9 @@ void FanModel::add(const StarShape& s, const Fan& fan, const Inner& inner) {
         size * 21 + (m > 1 ? cot_bucket(over(inner.cotangent, edges)) : 0),
         size * 21 + cot_bucket(outer),
         size * buckets + (m > 1 ? clamp(octave_steps(over(inner.bend, edges), 2) + 20, buckets - 1) : 0),
-        size * 16 + clamp(d, 15)};
+        first_models_ ? size * 16 + clamp(d, 15)
+                      : size * buckets + nearness(inner.sum + (s.ray[from] + s.ray[to]),
+                                                  inner.squares + (s.square[from] + s.square[to]), m + 2)};
     double score = 0;
     for (int i = 0; i < features; ++i) {
         c.weight[i] = i * 1024 + value[i];
@@ -147,6 +169,7 @@ Fan FanModel::code(BitCoder& coder, const StarShape& shape, const Fan& fan) {
             if (c.kind == fan.kind && c.faces == fan.faces && (c.kind != Fan::inside || c.start == fan.start))
                 wanted = i;
         }
+    if (!first_models_) find_shares();
     for (double& share : share_) share /= sum_;
     const std::size_t chosen = code_rank(coder, wanted);
     if (chosen == candidates_.size()) return code_plainly(coder, shape, fan);

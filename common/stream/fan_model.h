@@ -18,23 +18,30 @@ struct StarShape {
     std::vector<double> bend;          ///< #spokes: 1 - cos of the angle between the two faces' normals
     std::vector<double> area_to;       ///< #faces+1: sums of areas
     std::vector<Vec3> normal;          ///< #faces
+    std::vector<Vec3> ray;             ///< #spokes: from the vertex to the spokes'
+    std::vector<double> square;        ///< #spokes: of their lengths
     double total = 0;                  ///< area
+    Index faces_taken = 0;
 
+    /// The star of u and what is taken.
     /// @param batch  the mark of faces that are taken
     void take(const StarMesh& mesh, Index u, Index batch);
+    /// The rest.
+    void measure(const StarMesh& mesh, Index u);
+    bool has_fans() const { return !star.closed || faces_taken < star.faces(); }
 };
 
 /// Which fan of a star is split off: all fans are ranked by a log-linear model over what makes one likely, learned
 /// on the way, and the rank is coded.
 class FanModel {
 public:
-    FanModel();
+    /// @param first_models  of versions 1 and 2 of the file, which do not ask how near the new vertex is to its parent
+    explicit FanModel(bool first_models);
 
     /// Ranks the fans of a star.
     void rank(const StarShape& shape);
-    /// ln of the sum of the fans' weights; there must be one.
+    /// ln of the weight of the likeliest fan; with the first models of the sum of all.
     double evidence() const { return evidence_; }
-    bool empty() const { return candidates_.empty(); }
 
     /// Codes which, after rank(), and learns.
     /// @throws InputError  if what is read is no fan
@@ -49,9 +56,11 @@ private:
 
     /// Sums over the edges inside a fan, from the first to the last: the order of sums is part of the format.
     struct Inner {
-        double length = 0, cotangent = 0, bend = 0;
+        double length = 0, cotangent = 0, bend = 0, squares = 0;
+        Vec3 sum{0, 0, 0};
         void add(const StarShape& shape, Index spoke) {
             length += shape.length[spoke], cotangent += shape.cotangent[spoke], bend += shape.bend[spoke];
+            sum += shape.ray[spoke], squares += shape.square[spoke];
         }
     };
     void add(const StarShape& shape, const Fan& fan, const Inner& inner);
@@ -65,6 +74,7 @@ private:
     double sum_ = 0;
     std::vector<std::size_t> order_;
     double evidence_ = 0;
+    bool first_models_;
     std::vector<double> weights_, squares_;
     BitModel<4> is_it_;
 };

@@ -30,10 +30,6 @@ void read_column(ByteReader& in, Header::Column& c) {
 
 }  // namespace
 
-std::uint8_t Header::version() const {
-    return std::any_of(columns.begin(), columns.end(), [](const Column& c) { return !c.same.empty(); }) ? 2 : 1;
-}
-
 void Header::write(ByteWriter& out) const {
     out.number(bytes);
     for (const Index n : {vertices, faces, base_vertices, base_faces}) out.number(n);

@@ -12,7 +12,7 @@ namespace multires::stream {
 
 /// Followed by a byte with the version.
 constexpr std::uint8_t signature[7] = {0x89, 'M', 'R', 'M', '\r', '\n', 0x1a};
-constexpr std::uint8_t newest_version = 2;
+constexpr std::uint8_t newest_version = 3;
 constexpr std::size_t most_attributes = 256;
 
 enum class Piece : std::uint8_t {
@@ -44,9 +44,6 @@ struct Header {
     double step = 1;   ///< mesh units of a cell
     double bulge = 0;  ///< how much of the ring's height prefixes add to a vertex, see Decoder::layer()
     std::vector<Column> columns;
-
-    /// The oldest one that has what the header says.
-    std::uint8_t version() const;
 
     void write(ByteWriter& out) const;
     /// @throws InputError  if the numbers cannot belong to a file of that size

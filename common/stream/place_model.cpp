@@ -25,40 +25,12 @@ std::int32_t sum(std::int32_t guess, std::int32_t rest) {
 
 }  // namespace
 
-ResidualModel::ResidualModel()
-    : model_({nodes * 64, nodes * 64, nodes * 64, nodes * 64, nodes * 64, nodes * 64, nodes * 16}, nodes) {}
-
-bool ResidualModel::bit(BitCoder& coder, bool value, int node, const Contexts& c) {
-    return model_.code(coder, value,
-                       {node * 64 + c.expected, node * 64 + c.spread, node * 64 + c.memory, node * 64 + c.other,
-                        node * 64 + c.lean, node * 64 + std::min(c.expected / 6, 7) * 8 + std::min(c.memory / 3, 7),
-                        node * 16 + c.kind},
-                       node);
-}
-
-std::int32_t ResidualModel::code(BitCoder& coder, std::int32_t value, const Contexts& c) {
-    constexpr int sign_node = 1, size_node = 2, bits_node = 34, most = 31;
-    if (bit(coder, value == 0, 0, c)) return 0;
-    const bool negative = bit(coder, value < 0, sign_node, c);
-    const std::uint32_t magnitude = static_cast<std::uint32_t>(std::abs(static_cast<std::int64_t>(value)));
-    int size = 0;  // bits below the leading one
-    while (size < most - 1 && bit(coder, magnitude >> (size + 1) != 0, size_node + size, c)) ++size;
-    std::uint32_t out = 1;
-    for (int i = size - 1; i >= 0; --i) {
-        const bool b = magnitude >> i & 1;
-        const int known = size - 1 - i;  // leading bits known
-        if (known < 2)
-            out = out << 1 |
-                  static_cast<std::uint32_t>(bit(coder, b, bits_node + 4 * size + (known == 0 ? 0 : 1 + (out & 1)), c));
-        else
-            out = out << 1 | coder.code_plain(b, 1);
-    }
-    return negative ? -static_cast<std::int32_t>(out) : static_cast<std::int32_t>(out);
-}
-
-PlaceModel::PlaceModel()
-    : place_{Regression<points>({0.1, 0, 0.05, 0, 1.2, 0}), Regression<points>({0, 0, 0, 0, 0, 0})},
-      height_{Regression<heights>({0.3, 0, 0.3, 0, 0}), Regression<heights>({0.3, 0, 0.3, 0, 0})} {}
+PlaceModel::PlaceModel(bool with_experts)
+    : with_experts_(with_experts), place_{Regression<points>({0.1, 0, 0.05, 0, 1.2, 0}),
+                                          Regression<points>({0, 0, 0, 0, 0, 0})},
+      height_{Regression<heights>({0.3, 0, 0.3, 0, 0}), Regression<heights>({0.3, 0, 0.3, 0, 0})},
+      along_{ResidualModel(with_experts), ResidualModel(with_experts)}, across_{ResidualModel(with_experts),
+                                                                                ResidualModel(with_experts)} {}
 
 Cell PlaceModel::code(BitCoder& coder, const StarMesh& mesh, const Star& star, Index v, Index parent,
                       const Cell& cell) {
@@ -177,6 +149,69 @@ void PlaceModel::find_points(const StarMesh& mesh, Index parent) {
         for (int i = 0; i < points; ++i) f[i] = point_[i][axis] - centre_[axis];
         predicted_[axis] = centre_[axis] + place_[star_->closed ? 0 : 1].predict(f);
     }
+    if (with_experts_) find_mode(mesh);
+}
+
+/// Places that are right on a regular triangular grid: across the link edges, across two edges of the ring, and between
+/// two of its vertices.
+void PlaceModel::add_candidates(const StarMesh& mesh) {
+    constexpr Index most = 12;  // their number is a square
+    const std::vector<Index>& ring = star_->spoke;
+    const bool closed = star_->closed;
+    const Index d = star_->faces(), n = closed ? d : d + 1;
+    candidate_.clear();
+    for (Index i = 0; i < d; ++i)
+        if (has_flap_[i]) candidate_.push_back(flap_[i]);
+    if (n > most) return;
+    for (Index i = 0; i < n; ++i) {
+        const Vec3& a = mesh.point(ring[i]);
+        if (closed || i + 2 < n)
+            candidate_.push_back(a + mesh.point(ring[(i + 2) % n]) - mesh.point(ring[(i + 1) % n]));
+        for (Index j = i + 2; j < n; ++j)
+            if (!closed || i > 0 || j + 1 < n) candidate_.push_back((a + mesh.point(ring[j])) * 0.5);
+    }
+}
+
+/// Where most candidates lie close together, near the predicted place: the maximum of a density of Cauchy kernels, by
+/// mean shift.
+void PlaceModel::find_mode(const StarMesh& mesh) {
+    constexpr double kernel = 0.01;  // square of its width, of the ring's
+    constexpr int steps = 3;
+    add_candidates(mesh);
+    mode_ = predicted_;
+    const double square = kernel * scale_ * scale_;
+    for (int step = 0; step < steps; ++step) {
+        Vec3 sum(0, 0, 0);
+        support_ = 0;
+        for (const Vec3& c : candidate_) {
+            const Vec3 r = c - mode_;
+            const double near = square / (dot(r, r) + square), weight = near * near;
+            support_ += weight, sum += weight * c;
+        }
+        if (support_ > 0) mode_ = sum / support_;
+    }
+    apart_mode_ = logarithm(length(mode_ - predicted_) + 0.3), log_support_ = logarithm(support_ + 0.1);
+}
+
+/// Codes how far a coordinate is from its prediction.
+/// @param clues  of each expert; mean_ has their places relative to the prediction
+std::int32_t PlaceModel::code_with_experts(BitCoder& coder, std::int32_t rest, ResidualModel& model,
+                                           ResidualModel::Contexts& contexts, const std::array<Clues, experts>& clues,
+                                           std::array<Width, experts>& width) {
+    ResidualModel::Opinions opinions;
+    for (int e = 0; e < experts; ++e) {
+        const double off = std::min(std::max(width[e].predict(clues[e]), -3.0), 24.0);
+        if (e == 0) contexts.expected = clamp(static_cast<int>((off + 3) * 5), 63);
+        const bool heavy = e > 0;  // modes are right or quite wrong
+        opinions.expert[e] = {mean_[e], (heavy ? 1 : 1.5) / exponential(0.6931471805599453 * off), heavy};
+    }
+    opinions.support = clamp(static_cast<int>(support_ * 1.2), 7);
+    const std::int32_t out = model.code(coder, rest, contexts, &opinions);
+    for (int e = 0; e < experts; ++e) {
+        missed_[e] = logarithm(std::abs(out - mean_[e]) + 0.3);
+        width[e].learn(clues[e], missed_[e]), width[e].end_sample();
+    }
+    return out;
 }
 
 std::int32_t PlaceModel::code_along(BitCoder& coder, int axis, std::int32_t value) {
@@ -191,25 +226,40 @@ std::int32_t PlaceModel::code_along(BitCoder& coder, int axis, std::int32_t valu
     const double far = std::sqrt(square);
     const std::int32_t guess = nearest(place);
     ResidualModel::Contexts c;
-    const std::array<double, 9> f = {
-        1,
-        logarithm(far + 0.3),
-        logarithm(scale_),
-        memory_along_,
-        memory_across_,
-        apart_along_,
-        apart_across_,
-        remembers_ ? 1.0 : 0.0,
-        second ? logarithm(std::abs(off_) + 0.5) - logarithm(std::sqrt(far_[axes_[0]]) + 0.3) : 0.0};
-    c.expected = clamp(static_cast<int>((expect_along_.predict(f) + 3) * 5), 63);
+    const std::array<double, 8> f = {1,
+                                     logarithm(far + 0.3),
+                                     logarithm(scale_),
+                                     memory_along_,
+                                     memory_across_,
+                                     apart_along_,
+                                     apart_across_,
+                                     remembers_ ? 1.0 : 0.0};
+    const double far_of_first = logarithm(std::sqrt(far_[axes_[0]]) + 0.3);
     c.spread = clamp(octave_steps(far + 0.05, 3) + 12, 63);
     c.memory = remembers_ ? clamp(static_cast<int>(memory_along_ * 3 + 8), 62) : 63;
     c.kind = clamp(star_->faces() - 2, 7) + (second ? 8 : 0);
     const int other = second ? clamp(octave_steps(std::abs(off_) / (std::sqrt(far_[axes_[0]]) + 0.05), 1) + 5, 7) : 0;
     c.other = other * 8 + clamp(octave_steps(scale_, 1), 7);
     c.lean = clamp(static_cast<int>((place - guess + 0.5) * 8), 7) + 8 * clamp(c.spread / 3 - 3, 7);
-    const std::int32_t out = sum(guess, along_[star_->closed ? 0 : 1].code(coder, value - guess, c));
-    expect_along_.learn(f, logarithm(std::abs(out - place) + 0.3)), expect_along_.end_sample();
+    ResidualModel& model = along_[star_->closed ? 0 : 1];
+    std::int32_t out = 0;
+    if (with_experts_) {
+        mean_ = {place - guess, mode_[axis] - guess};
+        std::array<Clues, experts> clues;
+        for (int e = 0; e < experts; ++e) {
+            clues[e] = {
+                1,           f[1],        f[2], memory_along_, apart_along_, second ? missed_[e] - far_of_first : 0,
+                apart_mode_, log_support_};
+        }
+        out = sum(guess, code_with_experts(coder, value - guess, model, c, clues, width_along_));
+    } else {
+        Regression<9>::Features g;
+        std::copy(f.begin(), f.end(), g.begin());
+        g[8] = second ? logarithm(std::abs(off_) + 0.5) - far_of_first : 0.0;
+        c.expected = clamp(static_cast<int>((expect_along_.predict(g) + 3) * 5), 63);
+        out = sum(guess, model.code(coder, value - guess, c, nullptr));
+        expect_along_.learn(g, logarithm(std::abs(out - place) + 0.3)), expect_along_.end_sample();
+    }
     if (second)
         slope_.learn({lever / scale_}, (out - predicted_[axis]) / scale_), slope_.end_sample();
     else
@@ -261,15 +311,32 @@ std::int32_t PlaceModel::code_height(BitCoder& coder, const StarMesh& mesh, Inde
                                      logarithm(off + 0.5),
                                      remembers_ ? 1.0 : 0.0,
                                      logarithm(std::abs(up_[w]))};
-    c.expected = clamp(static_cast<int>((expect_across_.predict(g) + 3) * 6), 63);
     c.memory = remembers_ ? clamp(static_cast<int>(memory_across_ * 3 + 8), 62) : 63;
     c.kind = clamp(star_->faces() - 2, 15);
     c.other =
         clamp(octave_steps(off + 0.05, 1) + 5, 15) * 4 + clamp(static_cast<int>((std::abs(up_[w]) - 0.55) * 8), 3);
     c.lean = clamp(static_cast<int>((height - guess + 0.5) * 8), 7) + 8 * clamp(c.spread / 2 - 3, 7);
-    const std::int32_t value = sum(guess, across_[open].code(coder, cell[w] - guess, c));
+    std::int32_t value = 0;
+    if (with_experts_) {
+        const double off_mode_a = cell[a] - mode_[a], off_mode_b = cell[b] - mode_[b];
+        mean_ = {height - guess, mode_[w] - (up_[a] * off_mode_a + up_[b] * off_mode_b) / up_[w] - guess};
+        std::array<Clues, experts> clues;
+        clues[0] = {1,
+                    g[1],
+                    g[2],
+                    memory_across_,
+                    apart_across_,
+                    g[6],
+                    logarithm(std::abs(off_mode_a) + std::abs(off_mode_b) + 0.3),
+                    log_support_};
+        clues[1] = clues[0];
+        value = sum(guess, code_with_experts(coder, cell[w] - guess, across_[open], c, clues, width_across_));
+    } else {
+        c.expected = clamp(static_cast<int>((expect_across_.predict(g) + 3) * 6), 63);
+        value = sum(guess, across_[open].code(coder, cell[w] - guess, c, nullptr));
+        expect_across_.learn(g, logarithm(std::abs(value - height) + 0.3)), expect_across_.end_sample();
+    }
     rest_[w] = value - guess;
-    expect_across_.learn(g, logarithm(std::abs(value - height) + 0.3)), expect_across_.end_sample();
     std::array<double, heights> scaled = f;
     for (double& x : scaled) x /= scale_;
     height_[open].learn(scaled, (value - flat) / scale_);

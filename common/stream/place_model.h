@@ -1,7 +1,7 @@
 #pragma once
 
-#include "stream/bit_model.h"
 #include "stream/regression.h"
+#include "stream/residual_model.h"
 #include "stream/star_mesh.h"
 
 #include <array>
@@ -12,26 +12,6 @@ namespace multires::stream {
 /// Position on the grid of the present precision.
 using Cell = std::array<std::int32_t, 3>;
 
-/// A number coded as difference to a prediction: its sign, its order of magnitude and its leading bits by context.
-class ResidualModel {
-public:
-    struct Contexts {
-        int expected = 0;  ///< 0..63
-        int spread = 0;    ///< 0..63 how far off it may be by the shape around it
-        int memory = 0;    ///< 0..63 how far off others near it were
-        int kind = 0;      ///< 0..15 valence and the like
-        int other = 0;     ///< 0..63 what is known of the other coordinates
-        int lean = 0;      ///< 0..63 where in its cell the prediction lies
-    };
-    ResidualModel();
-    std::int32_t code(BitCoder& coder, std::int32_t value, const Contexts& contexts);
-
-private:
-    static constexpr int nodes = 160;
-    bool bit(BitCoder& coder, bool value, int node, const Contexts& c);
-    BitModel<7> model_;
-};
-
 /// Where a vertex that was just split off lies, given all that lies around it: a linear combination of points and
 /// heights whose weights are learned, and the rest coded.
 ///
@@ -39,7 +19,8 @@ private:
 /// that very place: so the rest lies along the normal, without a change of axes that integers would not survive.
 class PlaceModel {
 public:
-    PlaceModel();
+    /// @param with_experts  from version 3 of the file on
+    explicit PlaceModel(bool with_experts);
 
     /// @param mesh  with the vertex v and the points and normals of all others
     /// @param star  that of v
@@ -48,11 +29,20 @@ public:
     Cell code(BitCoder& coder, const StarMesh& mesh, const Star& star, Index v, Index parent, const Cell& cell);
 
 private:
-    static constexpr int points = 6, heights = 5;
+    static constexpr int points = 6, heights = 5, experts = ResidualModel::experts;
+    /// What tells how far off an expert may be.
+    using Clues = std::array<double, 8>;
+    /// How far off an expert is, log2 of cells.
+    using Width = Regression<8>;
 
     void take(const StarMesh& mesh, Index parent);
     void find_normals(const StarMesh& mesh);
     void find_points(const StarMesh& mesh, Index parent);
+    void find_mode(const StarMesh& mesh);
+    void add_candidates(const StarMesh& mesh);
+    std::int32_t code_with_experts(BitCoder& coder, std::int32_t rest, ResidualModel& model,
+                                   ResidualModel::Contexts& contexts, const std::array<Clues, experts>& clues,
+                                   std::array<Width, experts>& width);
     std::int32_t code_along(BitCoder& coder, int axis, std::int32_t value);
     std::int32_t code_height(BitCoder& coder, const StarMesh& mesh, Index parent, const Cell& cell);
     std::array<double, heights> height_features(const StarMesh& mesh, Index parent, const Cell& cell) const;
@@ -62,6 +52,14 @@ private:
     std::vector<std::uint8_t> has_flap_;
     Vec3 centre_, up_, predicted_, far_, skew_;
     std::array<Vec3, points> point_;
+    bool with_experts_;
+    std::vector<Vec3> candidate_;  ///< for the mode
+    Vec3 mode_{0, 0, 0};
+    double support_ = 0;  ///< how many candidates agree
+    double apart_mode_ = 0, log_support_ = 0;
+    std::array<double, experts> mean_{}, missed_{};  ///< of what is coded now; logarithm of the last miss, cells
+    std::array<Width, experts> width_along_{Width({0, 1}), Width({0, 1})},
+        width_across_{Width({0, 0.5, 0, 0.5}), Width({0, 0.5, 0, 0.5})};
     double scale_ = 1, off_ = 0;
     Regression<1> slope_{{0.8}};
     std::array<int, 3> axes_{};  ///< the two along the surface, the one across
@@ -73,7 +71,7 @@ private:
     std::vector<float> missed_along_, missed_across_;  ///< #V: by how much, over the scale; < 0: not known
     std::array<Regression<points>, 2> place_;
     std::array<Regression<heights>, 2> height_;
-    std::array<ResidualModel, 2> along_, across_;
+    std::array<ResidualModel, 2> along_, across_;  ///< closed and open stars
 };
 
 }  // namespace multires::stream

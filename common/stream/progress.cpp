@@ -29,9 +29,11 @@ void add_bulge(const StarMesh& mesh, const Positions& from, double share, Positi
     }
 }
 
-Progress::Progress(std::vector<Cell> cells, const Faces& faces, int bits, Index most)
+Progress::Progress(std::vector<Cell> cells, const Faces& faces, int bits, Index most, int version)
     : mesh_(static_cast<Index>(cells.size()), faces), cells_(std::move(cells)), parent_(cells_.size(), -1), bits_(bits),
-      most_(most), is_split_({20 * 3, 64 * 3, 16 * 16, 32 * 20, 16 * 16}, 3), finer_({64, 64, 64}, 1) {
+      most_(most), first_models_(version < 3), fans_(first_models_), places_(!first_models_),
+      is_split_({20 * 3, 64 * 3, 16 * 16, 32 * 20, 16 * 16}, 6, first_models_ ? Learning() : Learning{0.012, 0, 120}),
+      finer_({64, 64, 64 * 16}, 1) {
     mesh_.set_points(points());
 }
 
@@ -70,33 +72,45 @@ void Progress::visit(BitCoder& coder, Guide* guide) {
     const Index u = order_[at_++];
     for (int children = 0;; ++children) {
         shape_.take(mesh_, u, batch_);
-        fans_.rank(shape_);
-        if (fans_.empty()) break;
+        if (!shape_.has_fans()) break;
+        const bool looks = first_models_ || may_split(children);
+        if (looks) rank_fans(u);
         std::optional<NewVertex> wanted;
         if (guide) wanted = guide->next(u, shape_.star);
-        if (!is_split(coder, wanted.has_value(), children)) break;
+        if (!is_split(coder, wanted.has_value(), children, looks)) break;
+        if (!looks) rank_fans(u);
         split(coder, u, wanted.value_or(NewVertex()));
         if (guide) guide->done(u, mesh_.vertices() - 1);
     }
 }
 
-bool Progress::is_split(BitCoder& coder, bool yes, int children) {
-    const Index d = shape_.star.faces();
+/// False if little is left of the star: that its vertex is split is then so unlikely that looking at its fans takes
+/// more time than it saves bits.
+bool Progress::may_split(int children) const {
+    const Index d = shape_.star.faces(), left = d - shape_.faces_taken;
+    return children == 0 && left > (d > 5 ? 2 : 3);
+}
+
+void Progress::rank_fans(Index u) {
+    shape_.measure(mesh_, u);
+    fans_.rank(shape_);
+}
+
+/// @param looked  the star's fans are ranked
+bool Progress::is_split(BitCoder& coder, bool yes, int children, bool looked) {
+    const Index d = shape_.star.faces(), taken = shape_.faces_taken;
     const int more = std::min(children, 2), valence = clamp(d, 19);
-    Index taken = 0;
-    for (const std::uint8_t t : shape_.taken) taken += t;
-    const int evidence = clamp(static_cast<int>((fans_.evidence() + 8) * 4), 63);
+    const int evidence = looked ? clamp(static_cast<int>((fans_.evidence() + 8) * 4), 63) : 0;
     const double mean = mean_area_ > 0 ? mean_area_ : 1;
-    const int size = clamp(octave_steps(shape_.total / mean + 1e-9, 2) + 8, 15);
+    const int size = looked ? clamp(octave_steps(shape_.total / mean + 1e-9, 2) + 8, 15) : 0;
     const int density = clamp(static_cast<int>(density_ * 16), 15);
     const bool out = is_split_.code(coder, yes,
                                     {valence * 3 + more, evidence * 3 + more, clamp(taken, 15) * 16 + clamp(d, 15),
                                      (evidence / 2) * 20 + valence, size * 16 + density},
-                                    more);
-    if (children == 0) {
-        density_ += ((out ? 1 : 0) - density_) / 64;
+                                    looked ? more : 3 + more);
+    if (children == 0) density_ += ((out ? 1 : 0) - density_) / 64;
+    if (children == 0 && looked)
         mean_area_ = mean_area_ > 0 ? mean_area_ + (shape_.total - mean_area_) / 64 : shape_.total;
-    }
     return out;
 }
 
@@ -116,16 +130,31 @@ void Progress::split(BitCoder& coder, Index u, const NewVertex& wanted) {
     for (const Index h : star_.leaving) mesh_.set_mark(StarMesh::face_of(h), batch_);
 }
 
+/// Of the neighbours that were refined already and had the same coordinate: how many, up to 3, went up (times 4) and
+/// down. In a plane across an axis all go the same way.
+/// @param v  star_ is its star if it is regular
+int Progress::alike_around(Index v, int axis) const {
+    if (!mesh_.regular(v)) return 0;
+    int up = 0, down = 0;
+    for (std::size_t i = star_.closed ? 1 : 0; i < star_.spoke.size(); ++i) {
+        const Index w = star_.spoke[i];
+        if (w < v && cells_[w][axis] >> 1 == cells_[v][axis]) ++(cells_[w][axis] & 1 ? up : down);
+    }
+    return clamp(up, 3) * 4 + clamp(down, 3);
+}
+
 void Progress::refine(BitCoder& coder, const Guide* guide) {
     const Positions before = points();
     Positions smooth = before;
     add_bulge(mesh_, before, -0.5, smooth);
     for (Index v = 0; v < mesh_.vertices(); ++v) {
+        if (!first_models_ && mesh_.regular(v)) mesh_.star(v, star_);
         Cell finer = guide ? guide->cell(v) : Cell{};
         for (int axis = 0; axis < 3; ++axis) {
             const double off = smooth[v][axis] - before[v][axis];
             const int lean = clamp(static_cast<int>((std::min(std::max(off, -1.9), 1.9) + 2) * 16), 63);
-            const bool up = finer_.code(coder, finer[axis] & 1, {lean, 32 + axis, lean / 4}, 0);
+            const int alike = first_models_ ? lean / 4 : alike_around(v, axis) * 64 + lean;
+            const bool up = finer_.code(coder, finer[axis] & 1, {lean, 32 + axis, alike}, 0);
             finer[axis] = cells_[v][axis] * 2 + (up ? 1 : 0);
         }
         cells_[v] = finer;

@@ -43,7 +43,8 @@ class Progress {
 public:
     /// @param cells      of the base's vertices, at `bits` bits
     /// @param most       vertices there will be at most
-    Progress(std::vector<Cell> cells, const Faces& faces, int bits, Index most);
+    /// @param version    of the file, which the models follow
+    Progress(std::vector<Cell> cells, const Faces& faces, int bits, Index most, int version);
 
     /// Goes to the next vertex and codes what is split off it; begins a new batch after the last one.
     /// @param guide  null when decoding
@@ -64,8 +65,11 @@ public:
 
 private:
     void begin_batch();
-    bool is_split(BitCoder& coder, bool yes, int children);
+    bool may_split(int children) const;
+    void rank_fans(Index u);
+    bool is_split(BitCoder& coder, bool yes, int children, bool looked);
     void split(BitCoder& coder, Index u, const NewVertex& wanted);
+    int alike_around(Index v, int axis) const;
     Positions points() const;
 
     StarMesh mesh_;
@@ -73,6 +77,7 @@ private:
     std::vector<Index> parent_;
     int bits_;
     Index most_;
+    bool first_models_;  ///< those of versions 1 and 2
 
     std::vector<Index> order_;  ///< of the batch
     std::size_t at_ = 0;
