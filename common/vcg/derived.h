@@ -3,7 +3,6 @@
 #include "mesh/wedge_charts.h"
 #include "vcg/layer.h"
 
-#include <numeric>
 #include <set>
 
 namespace multires {
@@ -165,7 +164,7 @@ void build_custom(const std::set<vcg::PointerToAttribute>& from, const std::vect
 template <class M>
 std::vector<std::string> build_customs(M& target, const M& source, const VcgLayer& flat, const DerivedMesh& derived) {
     std::vector<std::string> left_out;
-    const auto hosts = [](const std::vector<Index>& host, std::vector<Index> rows) {
+    const auto hosts = [](const HostIndices& host, std::vector<Index> rows) {
         for (Index& i : rows) i = host[i];
         return rows;
     };
@@ -193,8 +192,7 @@ std::vector<std::string> build_derived(M& target, const M& source, const VcgLaye
     vcg_detail::require(target.vert.empty() && target.face.empty(), "the mesh to be filled is not empty");
     vcg_detail::check_derived<typename M::ScalarType>(flat.layer.mesh, derived);
     VcgLayer all;  // the vertices of the target
-    all.host_vertex.resize(derived.source_vertex.size());
-    std::iota(all.host_vertex.begin(), all.host_vertex.end(), 0);
+    all.host_vertex = HostIndices(derived.source_vertex.size());
     for (const Attribute& a : derived.attributes) vcg_detail::check_attribute(source, all, a);
 
     vcg_detail::enable_components(target, source);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numeric>
 #include <vector>
 
 namespace multires {
@@ -19,11 +20,42 @@ struct AttributeRequest {
     bool wedges = false;                                    ///< texture coordinates of the faces' corners
 };
 
+/// Ascending indices. Takes memory only if one is left out.
+class HostIndices {
+public:
+    explicit HostIndices(std::size_t count = 0) : count_(count) {}  ///< 0..count-1
+
+    std::size_t size() const { return count_; }
+    Index operator[](std::size_t i) const { return list_.empty() ? static_cast<Index>(i) : list_[i]; }
+    void push_back(Index index) {
+        if (list_.empty() && static_cast<std::size_t>(index) == count_) {
+            ++count_;
+            return;
+        }
+        if (list_.empty()) {
+            list_.resize(count_);
+            std::iota(list_.begin(), list_.end(), 0);
+        }
+        list_.push_back(index);
+        ++count_;
+    }
+
+    /// Calls use(Index) for all of them.
+    template <class Use>
+    void each(const Use& use) const {
+        for (std::size_t i = 0; i < count_; ++i) use((*this)[i]);
+    }
+
+private:
+    std::size_t count_;
+    std::vector<Index> list_;  ///< empty: i is at i
+};
+
 /// A layer, and where its elements live in the vcg mesh it came from. Good until that mesh is next changed.
 struct VcgLayer {
     Layer layer;
-    std::vector<Index> host_vertex;  ///< #V, index into M::vert
-    std::vector<Index> host_face;    ///< #F, index into M::face
+    HostIndices host_vertex;  ///< #V, index into M::vert
+    HostIndices host_face;    ///< #F, index into M::face
 };
 
 /// New values for a mesh; null parts stay as they are. All by vertex of the VcgLayer they were computed from.
@@ -91,7 +123,6 @@ Index array_index(const M& mesh, const typename M::VertexType* vertex) {
 template <class M>
 void copy_vertices(const M& mesh, VcgLayer& out, std::vector<Index>& flat_vertex) {
     out.layer.mesh.positions.reserve(mesh.vn);
-    out.host_vertex.reserve(mesh.vn);
     std::vector<std::uint8_t> selected;
     selected.reserve(mesh.vn);
     bool any = false;
@@ -110,7 +141,6 @@ void copy_vertices(const M& mesh, VcgLayer& out, std::vector<Index>& flat_vertex
 template <class M>
 void copy_faces(const M& mesh, const std::vector<Index>& flat_vertex, VcgLayer& out) {
     out.layer.mesh.faces.reserve(mesh.fn);
-    out.host_face.reserve(mesh.fn);
     std::vector<std::uint8_t> selected, faux, selected_edges;
     for (auto* bits : {&selected, &faux, &selected_edges}) bits->reserve(mesh.fn);
     for (std::size_t i = 0; i < mesh.face.size(); ++i) {
@@ -143,11 +173,12 @@ void copy_faces(const M& mesh, const std::vector<Index>& flat_vertex, VcgLayer& 
 
 /// An attribute with `value(vertex, k)` at the host's vertices.
 template <class F>
-Attribute gather(AttributeKind kind, std::string name, int width, const std::vector<Index>& host_vertex, F value) {
+Attribute gather(AttributeKind kind, std::string name, int width, const HostIndices& host_vertex, F value) {
     Attribute a{kind, std::move(name), width, {}};
     a.values.reserve(host_vertex.size() * width);
-    for (Index i : host_vertex)
+    host_vertex.each([&](Index i) {
         for (int k = 0; k < width; ++k) a.values.push_back(value(i, k));
+    });
     return a;
 }
 
@@ -195,14 +226,15 @@ void require_finite_as(const Positions& positions) {
 
 /// Texture coordinates of all corners of the host's faces, 3 #F.
 template <class M>
-std::vector<Wedge> gather_wedges(const M& mesh, const std::vector<Index>& host_face) {
+std::vector<Wedge> gather_wedges(const M& mesh, const HostIndices& host_face) {
     std::vector<Wedge> corners;
     corners.reserve(3 * host_face.size());
-    for (Index f : host_face)
+    host_face.each([&](Index f) {
         for (int k = 0; k < 3; ++k) {
             const auto t = mesh.face[f].cWT(k);
             corners.push_back({t.U(), t.V(), t.N()});
         }
+    });
     return corners;
 }
 
@@ -228,13 +260,14 @@ void check_attribute(const M& mesh, const VcgLayer& flat, const Attribute& a) {
 template <class M>
 void write_wedges(M& mesh, const VcgLayer& flat, const std::vector<Wedge>& wedges) noexcept {
     const Wedge* w = wedges.data();
-    for (Index f : flat.host_face)
+    flat.host_face.each([&](Index f) {
         for (int k = 0; k < 3; ++k, ++w) {
             auto& t = mesh.face[f].WT(k);
             t.U() = static_cast<std::decay_t<decltype(t.U())>>(w->u);
             t.V() = static_cast<std::decay_t<decltype(t.V())>>(w->v);
             t.N() = static_cast<std::decay_t<decltype(t.N())>>(w->texture);
         }
+    });
 }
 
 template <class M>
@@ -266,8 +299,9 @@ template <class M>
 void write_attribute(M& mesh, const VcgLayer& flat, const Attribute& a) noexcept {
     const double* value = a.values.data();
     const auto each = [&](auto components, auto assign) {  // a.width is `components`, checked before
-        for (Index i : flat.host_vertex)
+        flat.host_vertex.each([&](Index i) {
             for (int k = 0; k < components; ++k) assign(i, k, *value++);
+        });
     };
     switch (a.kind) {
     case AttributeKind::quality:
@@ -358,10 +392,12 @@ template <class M>
 void check_changes(const M& mesh, const VcgLayer& flat, const LayerChanges& changes) {
     using vcg_detail::require;
     const std::size_t n = flat.host_vertex.size();
-    for (Index i : flat.host_vertex)
+    flat.host_vertex.each([&](Index i) {
         require(i >= 0 && static_cast<std::size_t>(i) < mesh.vert.size(), "the mesh changed since it was read");
-    for (Index i : flat.host_face)
+    });
+    flat.host_face.each([&](Index i) {
         require(i >= 0 && static_cast<std::size_t>(i) < mesh.face.size(), "the mesh changed since it was read");
+    });
     if (changes.positions) {
         require(changes.positions->size() == n, "positions of wrong size");
         vcg_detail::require_finite_as<typename M::ScalarType>(*changes.positions);
