@@ -91,14 +91,19 @@ void bind_attributes(Parameters& p, AttributeDenoiseOptions& o) {
     bind_custom_names(p, o.what);
     bind_linear_light(p, o.linear_light);
     const char* group = "Threshold";
-    p.add("rule", Choice(o.rule, {"soft", "hard"}), "Rule",
-          "Soft: details up to the threshold go, all others become shorter by it. Hard: details up to the threshold "
-          "go, the others stay.")
+    p.add(
+         "rule", Choice(o.rule, {"soft", "hard", "automatic"}), "Rule",
+         "Automatic: impulses are replaced, the noise is measured, at each vertex where it varies, and what comes "
+         "nearest to the truth by its estimated risk is done: low passes, local Wiener filters, total variation, or "
+         "nothing. Soft: details of the pyramid up to the threshold go, all others become shorter by it. Hard: details "
+         "up to the threshold go, the others stay.")
         .in(group);
     p.add("automatic", &o.automatic, "Automatic threshold",
-          "A threshold for each level from the noise found in the attribute.")
+          "The noise is measured. Off: the threshold below is used, by the soft rule if the rule is automatic.")
         .in(group);
-    p.add("strength", &o.strength, "Strength", "Factor for the automatic threshold: 1 removes the noise found.")
+    p.add("strength", &o.strength, "Strength",
+          "Factor for the noise that is measured, or the automatic threshold: 1 removes the noise found, 0 changes "
+          "nothing.")
         .between(0, 100)
         .in(group);
     p.add("threshold", &o.threshold, "Threshold value",
@@ -106,10 +111,12 @@ void bind_attributes(Parameters& p, AttributeDenoiseOptions& o) {
           "of 255.")
         .at_least(0)
         .in(group);
-    p.add("finest_level", &o.finest_level, "Finest level", "First level that is denoised, 0 is the finest.")
+    p.add("finest_level", &o.finest_level, "Finest level",
+          "Thresholds only: first level that is denoised, 0 is the finest.")
         .at_least(0)
         .advanced(group);
-    p.add("coarsest_level", &o.coarsest_level, "Coarsest level", "Levels up to, but not with, this one are denoised.")
+    p.add("coarsest_level", &o.coarsest_level, "Coarsest level",
+          "Thresholds only: levels up to, but not with, this one are denoised.")
         .at_least(1)
         .advanced(group);
     bind_region(p, o.region);
@@ -149,9 +156,22 @@ const Returns thresholding_returns{
 
 const Returns attribute_noise_returns{
     {"*_noise", Type::real, "units of the attribute", "Deviation of the noise found.", false},
-    {"*_noise_per_level", Type::list, "units of the attribute", "Noise in the details of each level.", false},
-    {"*_threshold", Type::list, "units of the attribute", "The threshold used on each level.", false},
-    {"*_zeroed", Type::list, "", "Share of each level's details that became 0.", false},
+    {"*_noise_least", Type::real, "units of the attribute", "Automatic: the same where it is least.", false},
+    {"*_noise_most", Type::real, "units of the attribute", "Automatic: the same where it is largest.", false},
+    {"*_impulses", Type::integer, "", "Automatic: vertices whose values were found to be impulses and replaced.",
+     false},
+    {"*_rounding_step", Type::real, "units of the attribute",
+     "Automatic: step that the values were rounded to, if that is what the noise is; otherwise 0.", false},
+    {"*_estimated_rms_before", Type::real, "units of the attribute", "Automatic: expected RMS error of the values.",
+     false},
+    {"*_estimated_rms_after", Type::real, "units of the attribute", "Automatic: the same of the result.", false},
+    {"*_share_low_pass", Type::real, "", "Automatic: weight of the low passes in the result.", false},
+    {"*_share_wiener", Type::real, "", "Automatic: weight of the local Wiener filters.", false},
+    {"*_share_total_variation", Type::real, "", "Automatic: weight of total variation.", false},
+    {"*_noise_per_level", Type::list, "units of the attribute", "Thresholds: noise in the details of each level.",
+     false},
+    {"*_threshold", Type::list, "units of the attribute", "Thresholds: what was used on each level.", false},
+    {"*_zeroed", Type::list, "", "Thresholds: share of each level's details that became 0.", false},
 };
 
 }  // namespace
@@ -171,16 +191,19 @@ const Plugin& table() {
                     MenuClass::smoothing, faces | closed_seams, vertex_quality, vertex_positions,
                     denoise_returns + change_returns + thresholding_returns},
                    denoise_defaults, bind_denoise, denoise),
-            filter({"Multiresolution: Denoise Attributes", "apply_attributes_multires_denoise",
-                    std::string("Removes noise from vertex colour, quality or custom attributes by thresholding their "
-                                "details, without a parameter to set; the geometry stays as it is. The report says how "
-                                "much noise was found at each level, the threshold used and the share of details that "
-                                "went.<br>") +
-                        cite_roy,
-                    MenuClass::smoothing, faces, vertex_color | vertex_quality | custom_attributes,
-                    vertex_color | vertex_quality | custom_attributes,
-                    attribute_returns + attribute_noise_returns + pyramid_returns},
-                   attribute_defaults, bind_attributes, denoise_attributes),
+            filter(
+                {"Multiresolution: Denoise Attributes", "apply_attributes_multires_denoise",
+                 std::string("Removes noise from vertex colour, quality or custom attributes, without a parameter to "
+                             "set: the noise and impulses are measured, and what is done is chosen by the estimated "
+                             "error; the geometry stays as it is. The report says what was found and done.<br>See "
+                             "<i>Rudin, Osher, Fatemi</i>, <b>\"Nonlinear total variation based noise removal "
+                             "algorithms\"</b>, Physica D 1992.<br>See <i>Ramani, Blu, Unser</i>, "
+                             "<b>\"Monte-Carlo SURE\"</b>, IEEE Transactions on Image Processing 2008.<br>") +
+                     cite_roy,
+                 MenuClass::smoothing, faces, vertex_color | vertex_quality | custom_attributes,
+                 vertex_color | vertex_quality | custom_attributes,
+                 attribute_returns + attribute_noise_returns + sometimes(pyramid_returns)},
+                attribute_defaults, bind_attributes, denoise_attributes),
         }};
     return plugin;
 }

@@ -71,17 +71,25 @@ Result denoise(const Layer& layer, const AttributeDenoiseOptions& options) {
     return denoise_attributes(layer, options, session);
 }
 
-AttributeDenoiseOptions of_quality() {
+AttributeDenoiseOptions of_quality(AttributeRule rule = AttributeRule::automatic) {
     AttributeDenoiseOptions options;
     options.what.quality = true;
+    options.rule = rule;
     return options;
+}
+
+Layer with_quality(const Mesh& mesh, std::vector<double> values) {
+    Layer layer;
+    layer.mesh = mesh;
+    layer.attributes = {{AttributeKind::quality, "", 1, std::move(values)}};
+    return layer;
 }
 
 TEST(DenoiseAttributes, FindsTheNoiseWhateverTheSchemeAndOperator) {
     for (const double deviation : {0.05, 0.2, 0.5})
         for (const int scheme : fixtures::every_scheme())
             for (const Operator op : {Operator::cotangent_delaunay, Operator::second_difference_flaps}) {
-                AttributeDenoiseOptions options = of_quality();
+                AttributeDenoiseOptions options = of_quality(AttributeRule::soft);
                 options.pyramid.scheme.row = scheme;
                 options.pyramid.scheme.op = op;
                 const Result result = denoise(scene().with_noise(deviation, 0), options);
@@ -93,13 +101,73 @@ TEST(DenoiseAttributes, FindsTheNoiseWhateverTheSchemeAndOperator) {
 TEST(DenoiseAttributes, TakesMostOfTheNoiseAway) {
     for (const double deviation : {0.05, 0.2, 0.5}) {
         const Layer layer = scene().with_noise(deviation, 0);
-        const double soft = rms_difference(denoise(layer, of_quality()).attributes[0].values, scene().quality);
-        AttributeDenoiseOptions options = of_quality();
-        options.rule = Shrink::hard;
-        const double hard = rms_difference(denoise(layer, options).attributes[0].values, scene().quality);
-        EXPECT_LT(soft, (deviation > 0.1 ? 0.65 : 0.9) * deviation);
-        EXPECT_LT(hard, (deviation > 0.1 ? 0.7 : 0.9) * deviation);
+        const auto left = [&](AttributeRule rule) {
+            return rms_difference(denoise(layer, of_quality(rule)).attributes[0].values, scene().quality) / deviation;
+        };
+        EXPECT_LT(left(AttributeRule::soft), deviation > 0.1 ? 0.65 : 0.9);
+        EXPECT_LT(left(AttributeRule::hard), deviation > 0.1 ? 0.7 : 0.9);
+        EXPECT_LT(left(AttributeRule::automatic), deviation > 0.3 ? 0.42 : deviation > 0.1 ? 0.53 : 0.8);
     }
+}
+
+TEST(DenoiseAttributes, EstimatesItsError) {
+    const Mesh& mesh = scene().layer.mesh;
+    const std::vector<double> smooth = shapes::harmonic(mesh.positions, 2, 1);
+    for (const double deviation : {0.1, 0.4}) {
+        const Result result = denoise(with_quality(mesh, noisy(smooth, deviation, 3)), of_quality());
+        EXPECT_NEAR(reported<double>(result, "quality_noise"), deviation, 0.05 * deviation);
+        EXPECT_NEAR(reported<double>(result, "quality_estimated_rms_before"), deviation, 0.05 * deviation);
+        const double after = rms_difference(result.attributes[0].values, smooth);
+        EXPECT_LT(after, 0.35 * deviation);
+        EXPECT_NEAR(reported<double>(result, "quality_estimated_rms_after"), after, 0.12 * deviation);
+    }
+}
+
+TEST(DenoiseAttributes, FollowsNoiseThatVaries) {
+    const Mesh& mesh = scene().layer.mesh;
+    const std::vector<double> smooth = shapes::harmonic(mesh.positions, 2, 1);
+    std::vector<double> values = smooth;
+    shapes::Random random(5);
+    double squares = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        const double noise = (0.2 + 0.18 * mesh.positions[i].z()) * normal(random);  // 0.02 to 0.38
+        values[i] += noise;
+        squares += noise * noise / static_cast<double>(values.size());
+    }
+    const Result result = denoise(with_quality(mesh, values), of_quality());
+    EXPECT_LT(rms_difference(result.attributes[0].values, smooth), 0.3 * std::sqrt(squares));
+    EXPECT_LT(reported<double>(result, "quality_noise_least"), 0.1);
+    EXPECT_NEAR(reported<double>(result, "quality_noise_most"), 0.35, 0.08);
+}
+
+TEST(DenoiseAttributes, ReplacesImpulsesAndKeepsLinesAndSpots) {
+    const Mesh& mesh = scene().layer.mesh;
+    std::vector<double> truth = shapes::harmonic(mesh.positions, 6, 1);
+    for (std::size_t i = 0; i < truth.size(); ++i)
+        if (std::abs(mesh.positions[i].y()) < 0.02) truth[i] = 4;  // about one vertex wide
+    truth[100] = -5;
+    EXPECT_EQ(denoise(with_quality(mesh, truth), of_quality()).attributes[0].values[100], -5);
+    std::vector<double> values = truth;
+    shapes::Random random(9);
+    for (double& x : values)
+        if (random.uniform(0, 1) < 0.03) x = random.uniform(0, 1) < 0.5 ? -4 : 4;
+    const Result result = denoise(with_quality(mesh, values), of_quality());
+    EXPECT_NEAR(reported<int>(result, "quality_impulses"), 180, 45);
+    EXPECT_LT(rms_difference(result.attributes[0].values, truth), 0.5 * rms_difference(values, truth));
+}
+
+TEST(DenoiseAttributes, SmoothsRoundedValuesWithinTheirSteps) {
+    const Mesh& mesh = scene().layer.mesh;
+    const std::vector<double> smooth = shapes::harmonic(mesh.positions, 2, 1);
+    const auto [low, high] = std::minmax_element(smooth.begin(), smooth.end());
+    const double step = (*high - *low) / 9;
+    std::vector<double> values = smooth;
+    for (double& x : values) x = step * std::round(x / step);
+    const Result result = denoise(with_quality(mesh, values), of_quality());
+    EXPECT_NEAR(reported<double>(result, "quality_rounding_step"), step, 1e-9 * step);
+    const std::vector<double>& after = result.attributes[0].values;
+    for (std::size_t i = 0; i < after.size(); ++i) EXPECT_LE(std::abs(after[i] - values[i]), step / 2 + 1e-12);
+    EXPECT_LT(rms_difference(after, smooth), 0.7 * rms_difference(values, smooth));
 }
 
 /// Signals between 0 and 1: smooth, textured with waves of a few edges, and with steps.
@@ -122,7 +190,9 @@ TEST(DenoiseAttributes, NeverHarms) {
         for (const auto& [name, truth] : signals(mesh))
             for (const double deviation : {0.0, 0.01, 0.03, 0.1, 0.3})
                 for (const bool rounded : {false, true})
-                    for (const Shrink rule : {Shrink::soft, Shrink::hard}) {
+                    for (const AttributeRule rule :
+                         {AttributeRule::soft, AttributeRule::hard, AttributeRule::automatic}) {
+                        if (rounded == (rule == AttributeRule::soft)) continue;  // time
                         SCOPED_TRACE(name + " " + std::to_string(deviation) + (rounded ? " rounded" : ""));
                         AttributeDenoiseOptions options;
                         options.rule = rule;
@@ -193,12 +263,12 @@ TEST(DenoiseAttributes, StrengthZeroAndThresholdZeroChangeNothing) {
 
 TEST(DenoiseAttributes, LevelsAndGroupsAreAsChosen) {
     const Layer layer = scene().with_noise(0.3, 0);
-    AttributeDenoiseOptions options = of_quality();
+    AttributeDenoiseOptions options = of_quality(AttributeRule::soft);
     options.coarsest_level = 4;
     EXPECT_EQ(reported<std::vector<double>>(denoise(layer, options), "quality_threshold").size(), 4u);
     options.finest_level = 2;
     EXPECT_EQ(reported<std::vector<double>>(denoise(layer, options), "quality_threshold").size(), 2u);
-    options = of_quality();
+    options = of_quality(AttributeRule::soft);
     options.pyramid.hierarchy.grouping = Grouping::sequential;  // one vertex per level: still a handful of numbers
     const Result result = denoise(layer, options);
     EXPECT_LT(reported<std::vector<double>>(result, "quality_threshold").size(), 30u);

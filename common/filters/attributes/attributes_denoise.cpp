@@ -1,6 +1,7 @@
 #include "filters/attributes/attributes_denoise.h"
 
 #include "denoise/field_noise.h"
+#include "filters/attributes/attributes_automatic.h"
 #include "filters/attributes/attributes_band.h"
 #include "mesh/adjacency.h"
 #include "mesh/validation.h"
@@ -95,6 +96,10 @@ double gain_of(const NoiseGains& gains, const Coefficients& c, const Group& grou
     return rows > 0 ? std::sqrt(squares / rows) : 0;
 }
 
+Shrink shrink_rule(const AttributeDenoiseOptions& o) {
+    return o.rule == AttributeRule::hard ? Shrink::hard : Shrink::soft;
+}
+
 /// By group and subband.
 using Thresholds = std::vector<std::vector<double>>;
 
@@ -105,9 +110,9 @@ Thresholds thresholds_of(Coefficients& c, const std::vector<Group>& groups, cons
         t.emplace_back();
         for (std::size_t band = 0; band < c.level[group.first].size(); ++band) {
             const double noise = part.deviation() * gain_of(gains, c, group, band);
-            t.back().push_back(
-                o.automatic ? sure_threshold(details_of(c, group, band, part).lengths(), part.width, noise, o.rule)
-                            : o.threshold);
+            t.back().push_back(o.automatic ? sure_threshold(details_of(c, group, band, part).lengths(), part.width,
+                                                            noise, shrink_rule(o))
+                                           : o.threshold);
         }
     }
     return t;
@@ -247,12 +252,12 @@ Field denoised(const Channels& channels, const Pyramid& pyramid, const NoiseGain
         double factor = 1;
         if (o.automatic && part.deviation() > 0 && o.strength > 0)
             factor = o.strength * LeastRisk(pyramid, c, part, width).factor([&](Coefficients& to, double f) {
-                shrink_details(to, groups, gains, part, t, f, o.rule);
+                shrink_details(to, groups, gains, part, t, f, shrink_rule(o));
             });
         else if (o.automatic)
             factor = 0;
         changes = changes || factor > 0;
-        return shrink_details(c, groups, gains, part, t, factor, o.rule);
+        return shrink_details(c, groups, gains, part, t, factor, shrink_rule(o));
     };
     Field after = through_pyramid(pyramid, channels.field, {}, [&](Coefficients& c) {
         const Part part = surface.part(channels.field, 0, colors, rounding);
@@ -262,12 +267,29 @@ Field denoised(const Channels& channels, const Pyramid& pyramid, const NoiseGain
     return changes ? after : channels.field;
 }
 
+Result by_risk(const Layer& layer, const AttributeDenoiseOptions& options, const std::vector<Channels>& all,
+               const Session& session) {
+    Result result;
+    const std::vector<double> weights = region_weights(layer, options.region);
+    session.progress.report(0.02, "Finding neighbours");
+    const ValueSurface surface(layer.mesh);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const Field after = denoised_automatically(surface, all[k], options.strength, result.report, [&](double f) {
+            session.progress.report(0.05 + 0.9 * (static_cast<double>(k) + f) / static_cast<double>(all.size()),
+                                    "Denoising attributes");
+        });
+        result.attributes.push_back(changed_attribute(layer, all[k], after, weights, result.report));
+    }
+    return result;
+}
+
 }  // namespace
 
 Result denoise_attributes(const Layer& layer, const AttributeDenoiseOptions& options, Session& session) {
     check(options);
     require_usable(layer.mesh);
     const std::vector<Channels> all = vertex_channels(layer, options.what, options.linear_light);
+    if (options.rule == AttributeRule::automatic && options.automatic) return by_risk(layer, options, all, session);
     Result result;
     const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
     const std::vector<double> weights = region_weights(layer, options.region);

@@ -1,0 +1,306 @@
+#include "denoise/values.h"
+
+#include "base/parallel.h"
+#include "denoise/field_noise.h"
+#include "denoise/value_candidates.h"
+#include "denoise/value_impulses.h"
+#include "denoise/value_steps.h"
+#include "measure/vertex_normals.h"
+#include "mesh/adjacency.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+constexpr double most_correction = 1.2;   ///< of the variance of the noise
+constexpr std::size_t most_rows = 30000;  ///< vertices whose risk is summed up
+
+double rms(const std::vector<double>& x) {
+    double squares = 0;
+    for (const double d : x) squares += d * d;
+    return x.empty() ? 0 : std::sqrt(squares / static_cast<double>(x.size()));
+}
+
+/// The largest noise that the distribution of the values allows, if that is clearly less than what was found: white
+/// noise of deviation s makes their density f so smooth that (log f)'' >= -1 / s^2 (what is left of Tweedie's formula,
+/// the variance of the truth given a value, is not negative). So labels and checkers as fine as the triangles, which
+/// differ as if by noise, are known by the few values there are.
+double most_noise_of_values(const std::vector<double>& values, double found) {
+    if (!(found > 0)) return found;
+    constexpr double bins = 8;  // in a deviation
+    constexpr std::size_t most_bins = 4096;
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
+    const double width = found / bins;
+    if (!((*high - *low) / width < most_bins)) return found;
+    std::vector<double> count(static_cast<std::size_t>((*high - *low) / width) + 1, 0);
+    for (const double x : values)  // saturated ones have no noise
+        if (x != *low && x != *high) ++count[static_cast<std::size_t>((x - *low) / width)];
+    // Density at spacing of bins, smoothed by half a deviation.
+    constexpr int reach = 16;
+    constexpr double smoothing = 0.5;
+    std::vector<double> density(count.size() + 2 * reach, 0);
+    for (std::size_t i = 0; i < count.size(); ++i)
+        for (int d = -reach; d <= reach; ++d)
+            density[i + reach + d] += count[i] * std::exp(-0.5 * std::pow(d / (bins * smoothing), 2));
+    const double peak = *std::max_element(density.begin(), density.end());
+    double least = 1 + smoothing * smoothing;
+    for (std::size_t i = 1; i + 1 < density.size(); ++i) {
+        const double bend = (2 * density[i] - density[i - 1] - density[i + 1]) * bins * bins;
+        const bool top = density[i] >= density[i - 1] && density[i] >= density[i + 1];
+        if (top && density[i] > 0.5 * peak && bend > 0) least = std::min(least, density[i] / bend);
+    }
+    constexpr double clearly = 0.6;
+    const double variance = std::max(0.0, least - smoothing * smoothing);
+    return variance < clearly ? std::sqrt(variance) * found : found;
+}
+
+/// The values of the channels that have noise, in units of it.
+struct Scaled {
+    NoisyValues noisy;
+    std::vector<int> channel;   ///< #noisy.width: of the values
+    std::vector<double> scale;  ///< #noisy.width: deviations of the channels
+};
+
+/// @param local  #width of #V: deviations of the noise
+Scaled scaled(const std::vector<double>& values, int width, const std::vector<std::vector<double>>& local) {
+    Scaled s;
+    for (int c = 0; c < width; ++c) {
+        const double d = rms(local[c]);
+        if (d > 0) s.channel.push_back(c), s.scale.push_back(d);
+    }
+    const std::size_t count = values.size() / width, active = s.channel.size();
+    s.noisy.width = static_cast<int>(active);
+    s.noisy.values.resize(count * active);
+    s.noisy.probe.resize(count * active);
+    s.noisy.deviation.assign(count, 0);
+    if (active == 0) return s;
+    parallel_for(static_cast<Index>(count), [&](Index v) {
+        double squares = 0;
+        for (std::size_t a = 0; a < active; ++a) squares += std::pow(local[s.channel[a]][v] / s.scale[a], 2);
+        const double deviation = std::sqrt(squares / static_cast<double>(active));
+        s.noisy.deviation[v] = deviation;
+        for (std::size_t a = 0; a < active; ++a) {
+            const std::size_t i = active * v + a;
+            s.noisy.values[i] =
+                (values[static_cast<std::size_t>(width) * v + s.channel[a]] - values[s.channel[a]]) / s.scale[a];
+            s.noisy.probe[i] = deviation * gaussian(v, 300 + a);
+        }
+    });
+    return s;
+}
+
+/// The blends of least risk, channel by channel.
+struct Blend {
+    std::vector<Eigen::VectorXd> weights;         ///< #channels of #candidates
+    std::vector<double> risk_before, risk_after;  ///< #channels
+    std::vector<double> correction;               ///< #channels: of the variance of the noise
+};
+
+/// What is summed up of each candidate: some of the vertices, one channel.
+struct Rows {
+    std::vector<Index> vertex;
+    std::vector<std::vector<Response>> responses;  ///< #channels of #candidates
+};
+
+/// The variance of the noise, in units of the one found: what low passes with cotangents take out of the values has no
+/// less energy than what they take out of noise. 1 if none of them takes out about what it should: they see texture.
+double noise_of_residual(const std::vector<Response>& responses) {
+    double least = most_correction;
+    for (std::size_t k = 0; k < value_low_pass_steps.size(); ++k) {
+        double move = 0, response = 0;
+        for (std::size_t i = 0; i < responses[k].size(); i += 2) {
+            move += responses[k][i] * responses[k][i];
+            response += responses[k][i + 1] * responses[k][i + 1];
+        }
+        if (response > 0) least = std::min(least, move / response);
+    }
+    if (!(least < most_correction)) return 1;
+    return least < 1 ? least : std::sqrt(least);  // more may be shape, too
+}
+
+/// Mean square of the noise that a blend lets pass, by the probe.
+double passed_noise(const std::vector<Response>& responses, const Eigen::VectorXd& weights,
+                    const std::vector<double>& probe) {
+    double squares = 0;
+    for (std::size_t i = 0; i < probe.size(); ++i) {
+        double left = probe[i];
+        for (std::size_t k = 0; k < responses.size(); ++k)
+            left += weights[static_cast<Eigen::Index>(k)] * responses[k][2 * i + 1];
+        squares += left * left;
+    }
+    return probe.empty() ? 0 : squares / static_cast<double>(probe.size());
+}
+
+Blend blend_of(const NoisyValues& noisy, const Rows& rows) {
+    Neighbours alone;  // no differences along edges: the error of the values counts
+    alone.rim.assign(rows.vertex.size(), 0);
+    alone.offset.assign(rows.vertex.size() + 1, 0);
+    const std::vector<std::uint8_t> core(rows.vertex.size(), 1);
+    Blend blend;
+    for (int c = 0; c < noisy.width; ++c) {
+        std::vector<double> deviation, probe;
+        for (const Index v : rows.vertex) {
+            deviation.push_back(noisy.deviation[v]);
+            probe.push_back(noisy.probe[static_cast<std::size_t>(v) * noisy.width + c]);
+        }
+        Risk risk = risks(alone, rows.responses[c], deviation, probe, core).heights;
+        const double correction = noise_of_residual(rows.responses[c]);
+        risk.constant *= correction;
+        risk.linear *= correction;
+        Eigen::VectorXd weights = least_risk(risk);
+        // Not clearly better: the sums scatter, and so does the noise found.
+        const double most = 0.93 - 3 / std::sqrt(static_cast<double>(rows.vertex.size()));
+        if (!(risk.at(weights) < most * risk.constant)) weights.setZero();
+        blend.correction.push_back(correction);
+        blend.risk_before.push_back(risk.constant);
+        const double passed = correction * passed_noise(rows.responses[c], weights, probe);
+        blend.risk_after.push_back(std::max(passed, risk.at(weights)));
+        blend.weights.push_back(std::move(weights));
+    }
+    return blend;
+}
+
+/// Vertices to sum up: all but impulses, or some thousands of them.
+std::vector<Index> rows_of(const std::vector<std::uint8_t>& impulse) {
+    std::vector<Index> all;
+    for (std::size_t i = 0; i < impulse.size(); ++i)
+        if (!impulse[i]) all.push_back(static_cast<Index>(i));
+    const std::size_t stride = (all.size() + most_rows - 1) / most_rows;
+    if (stride > 1) {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < all.size(); i += stride) all[kept++] = all[i];
+        all.resize(kept);
+    }
+    return all;
+}
+
+Blend chosen(const ValueCandidateMaker& maker, const NoisyValues& noisy, const std::vector<std::uint8_t>& impulse,
+             const std::function<void(double)>& tick) {
+    Rows rows{rows_of(impulse), std::vector<std::vector<Response>>(noisy.width)};
+    const std::size_t count = value_candidates().size();
+    maker.make(noisy, std::vector<std::uint8_t>(count, 1), [&](std::size_t k, const ValueMoves& moves) {
+        for (int c = 0; c < noisy.width; ++c) {
+            Response r;
+            r.reserve(2 * rows.vertex.size());
+            for (const Index v : rows.vertex) {
+                const std::size_t i = static_cast<std::size_t>(v) * noisy.width + c;
+                r.push_back(moves.move[i]);
+                r.push_back(moves.response[i]);
+            }
+            rows.responses[c].push_back(std::move(r));
+        }
+        tick(static_cast<double>(k + 1) / static_cast<double>(count));
+    });
+    return blend_of(noisy, rows);
+}
+
+void apply(const ValueCandidateMaker& maker, const Scaled& s, const Blend& blend, int width,
+           std::vector<double>& values) {
+    const std::vector<ValueCandidate> all = value_candidates();
+    std::vector<std::uint8_t> wanted(all.size(), 0);
+    for (const Eigen::VectorXd& w : blend.weights)
+        for (std::size_t k = 0; k < all.size(); ++k) wanted[k] |= w[static_cast<Eigen::Index>(k)] > 0;
+    if (std::count(wanted.begin(), wanted.end(), 1) == 0) return;
+    maker.make(s.noisy, wanted, [&](std::size_t k, const ValueMoves& moves) {
+        for (int a = 0; a < s.noisy.width; ++a) {
+            const double factor = blend.weights[a][static_cast<Eigen::Index>(k)] * s.scale[a];
+            if (!(factor > 0)) continue;
+            for (std::size_t v = 0; v < s.noisy.deviation.size(); ++v)
+                values[v * width + s.channel[a]] += factor * moves.move[v * s.noisy.width + a];
+        }
+    });
+}
+
+void report_blend(const Scaled& s, const Blend& blend, int width, DenoisedValues& out) {
+    const std::vector<ValueCandidate> all = value_candidates();
+    double before = 0, after = 0;
+    for (int a = 0; a < s.noisy.width; ++a) {
+        before += blend.risk_before[a] * s.scale[a] * s.scale[a] / width;
+        after += blend.risk_after[a] * s.scale[a] * s.scale[a] / width;
+        for (std::size_t k = 0; k < all.size(); ++k) {
+            double& share = all[k].family == ValueFamily::low_pass || all[k].family == ValueFamily::average
+                                ? out.low_pass
+                            : all[k].family == ValueFamily::wiener ? out.wiener
+                                                                   : out.total_variation;
+            share += blend.weights[a][static_cast<Eigen::Index>(k)] / s.noisy.width;
+        }
+    }
+    for (int a = 0; a < s.noisy.width; ++a) out.noise[s.channel[a]] *= std::sqrt(blend.correction[a]);
+    out.rms_before = std::sqrt(out.rms_before * out.rms_before + before);
+    out.rms_after = std::sqrt(after);
+}
+
+/// Of values that were rounded, whose noise is known.
+void smooth_steps(const ValueSurface& surface, const std::vector<double>& channel, double step, int c, int width,
+                  DenoisedValues& out) {
+    const std::vector<double> smooth = within_steps(surface.near, channel, step);
+    for (std::size_t v = 0; v < channel.size(); ++v) out.values[v * width + c] += smooth[v] - channel[v];
+    out.noise[c] = step / std::sqrt(12.0);
+    out.step = std::max(out.step, step);
+}
+
+}  // namespace
+
+ValueSurface::ValueSurface(const Mesh& mesh)
+    : positions(mesh.positions),
+      near(neighbours(mesh.faces, vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size())))),
+      variation(near) {
+    const Incidence at = vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()));
+    weight = cotangent_weights(mesh.faces, at, near, mesh.positions);
+    const Array<Vec3> normal = vertex_normals(mesh.faces, mesh.positions);
+    bend.assign(mesh.positions.size(), 0);
+    parallel_for(near.rows(), [&](Index v) {
+        Vec3 sum = Vec3::Zero();
+        for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k)
+            sum += weight[k] * (mesh.positions[near.vertex[k]] - mesh.positions[v]);
+        bend[v] = std::abs(sum.dot(normal[v]));
+    });
+}
+
+DenoisedValues denoise_values(const ValueSurface& surface, const std::vector<double>& values, int width,
+                              double strength, double rounding, const std::function<void(double)>& tick) {
+    DenoisedValues out;
+    out.values = values;
+    out.noise.assign(width, 0);
+    if (!(strength > 0) || values.empty()) return out;
+    const ValueImpulses repaired = without_impulses(surface.near, surface.bend, values, width);
+    out.impulses = repaired.count;
+    out.values = repaired.values;
+    tick(0.1);
+    std::vector<std::vector<double>> local(width);
+    std::vector<double> channel(values.size() / width), moved(values.size());
+    for (int c = 0; c < width; ++c) {
+        for (std::size_t v = 0; v < channel.size(); ++v) channel[v] = out.values[v * width + c] - out.values[c];
+        const double step = rounding_step(surface.near, channel);
+        if (step > 2 * rounding) {
+            smooth_steps(surface, channel, step, c, width, out);
+            local[c].assign(channel.size(), 0);
+            continue;
+        }
+        local[c] = local_field_noise(surface.near, surface.weight, surface.positions, channel);
+        if (!(rms(local[c]) > rounding)) local[c].assign(channel.size(), 0);
+        const double found = rms(local[c]), most = most_noise_of_values(channel, found);
+        if (most < found)
+            for (double& d : local[c]) d *= most / found;
+        out.noise[c] = rms(local[c]);
+        for (double& d : local[c]) d *= strength;
+    }
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = out.values[i] - values[i];
+    out.rms_before = rms(moved);
+    tick(0.2);
+    const Scaled s = scaled(out.values, width, local);
+    if (s.noisy.width == 0) return out;
+    const auto [least, most] = std::minmax_element(s.noisy.deviation.begin(), s.noisy.deviation.end());
+    const double all = rms(out.noise);
+    out.smallest_noise = *least * all;
+    out.largest_noise = *most * all;
+    const ValueCandidateMaker maker(surface.near, surface.weight, surface.variation);
+    const Blend blend = chosen(maker, s.noisy, repaired.impulse, [&](double f) { tick(0.2 + 0.6 * f); });
+    apply(maker, s, blend, width, out.values);
+    report_blend(s, blend, width, out);
+    return out;
+}
+
+}  // namespace multires
