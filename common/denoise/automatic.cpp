@@ -4,7 +4,9 @@
 #include "base/parallel.h"
 #include "base/reduce.h"
 #include "denoise/lattice.h"
+#include "denoise/noise_classes.h"
 #include "denoise/sample.h"
+#include "denoise/varying_noise.h"
 #include "denoise/white_share.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
@@ -24,7 +26,8 @@ constexpr int spike_steps = 3;    ///< of guided normals, for what impulses met:
 constexpr double mostly = 0.5;    ///< weight of the normal field that speaks for guided normals
 constexpr double sharply = 0.65;  ///< weight of what keeps creases from which on it is alone
 constexpr double farthest = 4;    ///< deviations: Gaussian noise moves one vertex in 16,000 farther
-constexpr double small_weight = 0.04;  ///< candidates with less than this are left out
+constexpr double certain_if_varying = 0.8;  ///< share of the square of noise that varies
+constexpr double small_weight = 0.04;       ///< candidates with less than this are left out
 
 using Tick = std::function<void(double, const char*)>;
 
@@ -99,10 +102,11 @@ struct Assumed {
 };
 
 struct Choice {
-    Eigen::VectorXd weights;
-    double before = 0, after = 0;  ///< mean square error of the heights
-    double gain = 0;               ///< what it falls by at least
-    double safe = 1;               ///< share of the best move that gains even with as little noise as is certain
+    Eigen::VectorXd weights;                ///< mean of those of the classes
+    std::vector<Eigen::VectorXd> of_class;  ///< by noise: see NoiseClasses
+    double before = 0, after = 0;           ///< mean square error of the heights
+    double gain = 0;                        ///< what it falls by at least
+    double safe = 1;  ///< share of the best move that gains even with as little noise as is certain
 };
 
 /// Weights so small that their candidates are not worth making go to the others.
@@ -184,21 +188,20 @@ double noise_left(const std::vector<Response>& responses, const std::vector<doub
     return mean.value();
 }
 
-Choice choose(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
-              const Assumed& noise, const std::vector<std::uint8_t>& core, const std::function<void(double)>& tick) {
-    const Prepared p = prepared(faces, positions, at, near, noise.normal_steps);
-    const CandidateMaker maker(faces, positions, at, near, p.normal, p.weight, noise.deviation);
-    CandidateMaker::Responses responses = maker.responses([&](double f) { tick(0.8 * f); });
-    Risks r = risks(near, responses.all, noise.deviation, maker.probe(), core);
+/// What a choice is made from.
+struct Tried {
+    const AlongNormals& surface;
+    const Neighbours& near;
+    const std::vector<Response>& responses;
+    const std::vector<double>& probe;
+};
+
+/// For the vertices of a core.
+Choice choice_of(const Tried& tried, const Assumed& noise, const std::vector<std::uint8_t>& core) {
+    const Risks r = risks(tried.near, tried.responses, noise.deviation, tried.probe, core);
     Choice choice;
     choice.weights = weights_of(r, noise.stairs);
-    if (sharp_share(choice.weights) > mostly) {
-        maker.add_guided(responses, [&](double f) { tick(0.8 + 0.2 * f); });
-        r = risks(near, responses.all, noise.deviation, maker.probe(), core);
-        choice.weights = weights_of(r, noise.stairs);
-    }
-    const double removed = white_share_removed(AlongNormals(near, positions, p.normal, p.weight), near, responses.all,
-                                               choice.weights, core);
+    const double removed = white_share_removed(tried.surface, tried.near, tried.responses, choice.weights, core);
     const double certain = noise.certain * std::max(noise.white, removed) / (noise.factor * noise.factor);
     choice.safe = std::min(1.0, 2 * certain);
     choice.weights *=
@@ -213,22 +216,77 @@ Choice choose(const Faces& faces, const Positions& positions, const Incidence& a
     // What the blend leaves of the noise is an error in any case.
     choice.after =
         std::max(expected.at(choice.weights),
-                 noise_left(responses.all, maker.probe(), choice.weights, core) / (noise.factor * noise.factor));
+                 noise_left(tried.responses, tried.probe, choice.weights, core) / (noise.factor * noise.factor));
+    return choice;
+}
+
+/// The core's vertices by the class that most of their noise belongs to.
+std::vector<std::vector<std::uint8_t>> cores_of(const NoiseClasses& classes, const std::vector<double>& deviation,
+                                                const std::vector<std::uint8_t>& core) {
+    std::vector<std::vector<std::uint8_t>> out(classes.count(), std::vector<std::uint8_t>(core.size(), 0));
+    for (std::size_t i = 0; i < core.size(); ++i) {
+        const std::array<double, 3> shares = classes.shares(deviation[i]);
+        const auto most = std::max_element(shares.begin(), shares.end()) - shares.begin();
+        out[static_cast<std::size_t>(most)][i] = core[i];
+    }
+    return out;
+}
+
+/// For each class of noise, and on the whole.
+Choice choice_by_class(const Tried& tried, const Assumed& noise, const NoiseClasses& classes,
+                       const std::vector<std::uint8_t>& core) {
+    if (classes.count() == 1) {
+        Choice choice = choice_of(tried, noise, core);
+        choice.of_class = {choice.weights};
+        return choice;
+    }
+    const double all = static_cast<double>(std::count(core.begin(), core.end(), 1));
+    Choice mean;
+    mean.safe = 0;
+    mean.weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(tried.responses.size()));
+    for (const auto& part : cores_of(classes, noise.deviation, core)) {
+        const Choice choice = choice_of(tried, noise, part);
+        const double share = static_cast<double>(std::count(part.begin(), part.end(), 1)) / all;
+        mean.weights += share * choice.weights;
+        mean.before += share * choice.before;
+        mean.after += share * choice.after;
+        mean.gain += share * choice.gain;
+        mean.safe += share * choice.safe;
+        mean.of_class.push_back(choice.weights);
+    }
+    return mean;
+}
+
+Choice choose(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+              const Assumed& noise, const NoiseClasses& classes, const std::vector<std::uint8_t>& core,
+              const std::function<void(double)>& tick) {
+    const Prepared p = prepared(faces, positions, at, near, noise.normal_steps);
+    const CandidateMaker maker(faces, positions, at, near, p.normal, p.weight, noise.deviation);
+    CandidateMaker::Responses responses = maker.responses([&](double f) { tick(0.8 * f); });
+    const AlongNormals surface(near, positions, p.normal, p.weight);
+    const Tried tried{surface, near, responses.all, maker.probe()};
+    Choice choice = choice_by_class(tried, noise, classes, core);
+    if (std::any_of(choice.of_class.begin(), choice.of_class.end(),
+                    [](const Eigen::VectorXd& t) { return sharp_share(t) > mostly; })) {
+        maker.add_guided(responses, [&](double f) { tick(0.8 + 0.2 * f); });
+        choice = choice_by_class(tried, noise, classes, core);
+    }
     return choice;
 }
 
 /// On so many patches if the mesh is large.
 Choice choose_on_sample(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
-                        const Assumed& noise, Index count, const std::function<void(double)>& tick) {
+                        const Assumed& noise, const NoiseClasses& classes, Index count,
+                        const std::function<void(double)>& tick) {
     if (near.rows() <= whole_up_to)
-        return choose(faces, positions, at, near, noise, std::vector<std::uint8_t>(near.rows(), 1), tick);
+        return choose(faces, positions, at, near, noise, classes, std::vector<std::uint8_t>(near.rows(), 1), tick);
     const Sample sample = patches_of(faces, positions, near, count, patch_size);
     const Incidence sample_at = vertex_faces(sample.faces, static_cast<Index>(sample.positions.size()));
     const Neighbours sample_near = neighbours(sample.faces, sample_at);
     Assumed assumed = noise;
     assumed.deviation.resize(sample.vertex.size());
     for (std::size_t i = 0; i < sample.vertex.size(); ++i) assumed.deviation[i] = noise.deviation[sample.vertex[i]];
-    return choose(sample.faces, sample.positions, sample_at, sample_near, assumed, sample.core, tick);
+    return choose(sample.faces, sample.positions, sample_at, sample_near, assumed, classes, sample.core, tick);
 }
 
 /// What of the shifts within the surface is made.
@@ -301,9 +359,30 @@ Positions without_impulses(const Faces& faces, const Positions& positions, const
     return guided_steps(faces, start, at, face_graph(faces, at), spike_steps, moves);
 }
 
+/// The blends of the classes of noise, by their shares in each vertex.
+/// @param of_class  weights of the candidates; those missing at the end are 0
+Positions blend_by_class(const CandidateMaker& maker, const Positions& from,
+                         const std::vector<Eigen::VectorXd>& of_class, const NoiseClasses& classes,
+                         const std::vector<double>& deviation, const std::function<void(double)>& tick) {
+    const auto blend = [&](std::size_t c) {
+        Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all_candidates().size()));
+        weights.head(of_class[c].size()) = of_class[c];
+        const double count = static_cast<double>(of_class.size());
+        return maker.blend(weights, [&](double f) { tick((static_cast<double>(c) + f) / count); });
+    };
+    if (of_class.size() == 1) return blend(0);
+    Positions out = from;
+    for (std::size_t c = 0; c < of_class.size(); ++c) {
+        const Positions after = blend(c);
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] += classes.shares(deviation[i])[c] * (after[i] - from[i]);
+    }
+    return out;
+}
+
 /// What is known before the choice.
 struct Measured {
     SurfaceNoise noise;
+    bool varies = false;   ///< clearly, from place to place
     bool rounded = false;  ///< it is that of rounding to the lattice
     bool voxels = false;   ///< and the lattice that of voxels
     Index spikes = 0;
@@ -321,6 +400,15 @@ struct Measured {
     }
 };
 
+/// Noise that differs from place to place is white in most places, or it would not be found.
+void set_varying(std::vector<double> deviation, Measured& m) {
+    m.deviation = std::move(deviation);
+    m.along_normals = root_mean_square(m.deviation);
+    m.certain = certain_if_varying;
+    m.noise.along_normals = m.along_normals;
+    m.noise.at_least = std::sqrt(m.certain) * m.along_normals;
+}
+
 /// @param step  of the lattice that all coordinates lie on
 /// @param edge  mean edge length
 Measured measured(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
@@ -335,7 +423,17 @@ Measured measured(const Faces& faces, const Positions& positions, const Incidenc
         rounded->along_normals = rounded->at_least = *step / std::sqrt(3.0);
         rounded->all_directions = false;
     }
-    tick(0.05, "Looking for impulsive noise");
+    tick(0.05, "Looking for noise that varies");
+    std::vector<double> varying;
+    if (!rounded && !options.deviation) varying = varying_noise(faces, positions, at, near);
+    if (!varying.empty()) m.noise = surface_noise(faces, positions, at, near, edge);
+    m.varies = !varying.empty() && !m.noise.axis;
+    if (m.varies) {
+        m.start = positions;
+        set_varying(std::move(varying), m);
+        return m;
+    }
+    tick(0.07, "Looking for impulsive noise");
     m.start = rounded ? positions : without_impulses(faces, positions, at, near, m.spikes);
     tick(0.1, "Measuring the noise");
     m.noise = rounded ? *rounded : surface_noise(faces, m.start, at, near, edge);
@@ -376,7 +474,11 @@ Plan sampled_plan(const Faces& faces, const Positions& positions, const Incidenc
     Measured& m = plan.measured;
     m.start = m.spikes > 0 ? without_impulses(faces, positions, at, near, m.spikes) : positions;
     if (!m.is_certain(edge)) return plan;
-    m.deviation = deviations(faces, m.start, near, m.noise, edge);
+    if (m.varies) {  // patches are not all of the surface
+        m.deviation = varying_noise(faces, positions, at, near);
+        m.varies = !m.deviation.empty();
+    }
+    if (!m.varies) m.deviation = deviations(faces, m.start, near, m.noise, edge);
     plan.within = relax_within_surface(faces, m.start, near, m.within(options.strength), edge, &plan.within);
     return plan;
 }
@@ -397,6 +499,12 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     const Plan plan = (fast ? sampled_plan : plan_of)(faces, positions, at, near, step, edge, options, tick);
     const auto& [found, within] = plan;
     const double deviation = stats.deviation = options.strength * found.along_normals;
+    const auto [least, most] = std::minmax_element(plan.measured.deviation.begin(), plan.measured.deviation.end());
+    if (least != found.deviation.end()) {
+        stats.least_deviation = options.strength * *least;
+        stats.most_deviation = options.strength * *most;
+    }
+    stats.varies = found.varies;
     if (found.rounded) stats.step = *step;
     stats.voxels = found.voxels;
     stats.spikes = found.spikes;
@@ -412,8 +520,9 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     assumed.normal_steps = normal_steps(deviation / edge);
     assumed.deviation = found.deviation;
     for (double& d : assumed.deviation) d *= options.strength * assumed.factor;
+    const NoiseClasses classes(found.varies ? assumed.deviation : std::vector<double>());
     const Choice choice =
-        choose_on_sample(faces, shifted(found.start, within, Shares()), at, near, assumed,
+        choose_on_sample(faces, shifted(found.start, within, Shares()), at, near, assumed, classes,
                          fast ? fast_patches : patches, [&](double f) { tick(0.25 + 0.4 * f, "Choosing"); });
     if (!(choice.safe > 0)) return found.start;
     const Shares shares = safe_shares(within, choice);
@@ -429,7 +538,8 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     const bool around = within.noisy || within.likely;
     stats.rms_before = std::sqrt(choice.before + (around ? within.before * within.before : 0));
     stats.rms_after = std::sqrt(height * height * choice.after + side * side * error_within(within, shares));
-    Positions after = maker.blend(stats.weights, [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
+    Positions after = blend_by_class(maker, relaxed, choice.of_class, classes, assumed.deviation,
+                                     [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
     keep_within_noise(relaxed, assumed.deviation, after);
     if (found.rounded) keep_within_cells(positions, found.voxels ? stats.step : stats.step / 2, after);
     stats.edge = mean_edge_length(faces, after);

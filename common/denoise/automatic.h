@@ -18,6 +18,9 @@ struct AutomaticStats {
     Index spikes = 0;                      ///< vertices found to be impulses and set back first
     double edge = 0;                       ///< mean edge length of the result
     double deviation = 0;                  ///< of the noise along the normals, mesh units
+    double least_deviation = 0;            ///< where it is least, by place
+    double most_deviation = 0;             ///< where it is largest
+    bool varies = false;                   ///< clearly, from place to place
     bool all_directions = false;           ///< the noise was found within the surface too
     bool axis = false;                     ///< it goes along one axis of space
     double step = 0;                       ///< of the lattice that the coordinates were rounded to, mesh units; 0: none

@@ -14,12 +14,15 @@ namespace multires {
 /// Cost: linear, about 50 passes over the neighbours
 double field_noise(const Neighbours& near, const std::vector<double>& weight, const std::vector<double>& values);
 
-/// The same at each vertex, where the noise varies: measured in cells of several hundred vertices, then followed within
-/// them by means of the third differences around each vertex, clipped. A cell has more than the others only if its
-/// details are about white (first differences no larger than third ones, in units of noise); otherwise it is texture.
-/// Where cells differ no more than by chance, or the mesh is too small for cells, it is field_noise() everywhere.
+/// The same at each vertex, where the noise varies: see NoiseByDifferences::varying(). Where it does not, or the mesh
+/// is too small for cells, it is field_noise() everywhere.
 /// @returns  #V
 std::vector<double> local_field_noise(const Neighbours& near, const std::vector<double>& weight,
                                       const Positions& positions, const std::vector<double>& values);
+
+/// Details of three fields: each vertex less the weighted mean of its neighbours.
+/// @param h  #V by 3
+std::vector<double> field_details(const Neighbours& near, const std::vector<double>& weight,
+                                  const std::vector<double>& h);
 
 }  // namespace multires

@@ -11,7 +11,7 @@
 namespace multires {
 namespace {
 
-constexpr Index least_neighbours = 3;
+constexpr Index least_neighbours = 3, most_around = 64;
 constexpr double outlying = 5;           ///< times what is usual around: an impulse
 constexpr int passes = 3;                ///< impulses next to each other are found one after the other
 constexpr double highest = 4;            ///< times the median of all impulses: more is of another kind
@@ -49,6 +49,7 @@ public:
         std::vector<Index> ring;
         for (Index k = near_.offset[v]; k < near_.offset[v + 1]; ++k) {
             const Index w = near_.vertex[k];
+            if (near_.size(w) > most_around) continue;  // a hub, around which all would be beyond
             ring.insert(ring.end(), near_.vertex.begin() + near_.offset[w], near_.vertex.begin() + near_.offset[w + 1]);
         }
         std::sort(ring.begin(), ring.end());
@@ -74,7 +75,7 @@ public:
         median_of_all(v, middle.data());
         std::vector<Index> alike{v};
         for (std::size_t next = 0; next < alike.size() && alike.size() <= most; ++next)
-            for (Index k = near_.offset[alike[next]]; k < near_.offset[alike[next] + 1]; ++k) {
+            for (Index k = near_.offset[alike[next]]; k < near_.offset[alike[next] + 1] && alike.size() <= most; ++k) {
                 const Index w = near_.vertex[k];
                 if (distance(at(w), at(v)) < distance(at(w), middle.data()) &&
                     std::find(alike.begin(), alike.end(), w) == alike.end())

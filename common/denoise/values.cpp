@@ -5,6 +5,7 @@
 #include "denoise/value_candidates.h"
 #include "denoise/value_impulses.h"
 #include "denoise/value_steps.h"
+#include "denoise/white_share.h"
 #include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
 
@@ -96,6 +97,15 @@ struct Blend {
     std::vector<Eigen::VectorXd> weights;         ///< #channels of #candidates
     std::vector<double> risk_before, risk_after;  ///< #channels
     std::vector<double> correction;               ///< #channels: of the variance of the noise
+    /// #channels: mean square of the moves, and what they answer to the noise: the risk falls by 2 answer - moved.
+    std::vector<double> moved, answer;
+
+    /// Only a share of a channel's moves.
+    void keep(int channel, double share) {
+        weights[channel] *= share;
+        const double gain = 2 * answer[channel] - moved[channel];
+        risk_after[channel] += gain - share * (2 * answer[channel] - share * moved[channel]);
+    }
 };
 
 /// What is summed up of each candidate: some of the vertices, one channel.
@@ -154,6 +164,8 @@ Blend blend_of(const NoisyValues& noisy, const Rows& rows) {
         const double most = 0.93 - 3 / std::sqrt(static_cast<double>(rows.vertex.size()));
         if (!(risk.at(weights) < most * risk.constant)) weights.setZero();
         blend.correction.push_back(correction);
+        blend.moved.push_back(weights.dot(risk.quadratic * weights));
+        blend.answer.push_back(-risk.linear.dot(weights));
         blend.risk_before.push_back(risk.constant);
         const double passed = correction * passed_noise(rows.responses[c], weights, probe);
         blend.risk_after.push_back(std::max(passed, risk.at(weights)));
@@ -196,21 +208,43 @@ Blend chosen(const ValueCandidateMaker& maker, const NoisyValues& noisy, const s
     return blend_of(noisy, rows);
 }
 
-void apply(const ValueCandidateMaker& maker, const Scaled& s, const Blend& blend, int width,
-           std::vector<double>& values) {
-    const std::vector<ValueCandidate> all = value_candidates();
-    std::vector<std::uint8_t> wanted(all.size(), 0);
+/// A blend's moves of one channel, and their response to the probe: #V by 3, the last is not used.
+std::vector<double> channel_moves(const ValueMoves& all, int channel, int width) {
+    std::vector<double> h(all.move.size() / width * 3, 0);
+    for (std::size_t v = 0; v < h.size() / 3; ++v) {
+        h[3 * v] = all.move[v * width + channel];
+        h[3 * v + 1] = all.response[v * width + channel];
+    }
+    return h;
+}
+
+/// Moves the values, as far as they come nearer to the truth even if only what is white of what is taken out was noise:
+/// a rough signal has details everywhere, too. The answer goes with the variance of the noise.
+void apply(const ValueSurface& surface, const ValueCandidateMaker& maker, const Scaled& s,
+           const std::vector<std::uint8_t>& impulse, int width, Blend& blend, std::vector<double>& values) {
+    const std::size_t count = value_candidates().size();
+    std::vector<std::uint8_t> wanted(count, 0), core(impulse.size());
     for (const Eigen::VectorXd& w : blend.weights)
-        for (std::size_t k = 0; k < all.size(); ++k) wanted[k] |= w[static_cast<Eigen::Index>(k)] > 0;
+        for (std::size_t k = 0; k < count; ++k) wanted[k] |= w[static_cast<Eigen::Index>(k)] > 0;
     if (std::count(wanted.begin(), wanted.end(), 1) == 0) return;
+    ValueMoves all{std::vector<double>(s.noisy.values.size(), 0), std::vector<double>(s.noisy.values.size(), 0)};
     maker.make(s.noisy, wanted, [&](std::size_t k, const ValueMoves& moves) {
-        for (int a = 0; a < s.noisy.width; ++a) {
-            const double factor = blend.weights[a][static_cast<Eigen::Index>(k)] * s.scale[a];
-            if (!(factor > 0)) continue;
-            for (std::size_t v = 0; v < s.noisy.deviation.size(); ++v)
-                values[v * width + s.channel[a]] += factor * moves.move[v * s.noisy.width + a];
+        for (std::size_t i = 0; i < all.move.size(); ++i) {
+            const double weight = blend.weights[i % s.noisy.width][static_cast<Eigen::Index>(k)];
+            all.move[i] += weight * moves.move[i];
+            all.response[i] += weight * moves.response[i];
         }
     });
+    for (std::size_t i = 0; i < core.size(); ++i) core[i] = !impulse[i];
+    const auto detail = [&](const std::vector<double>& h) { return field_details(surface.near, surface.weight, h); };
+    for (int a = 0; a < s.noisy.width; ++a) {
+        if (!(blend.moved[a] > 0)) continue;
+        const double white = white_share_removed(detail, surface.near, channel_moves(all, a, s.noisy.width), core);
+        const double safe = std::clamp(2 * white * blend.answer[a] / blend.moved[a], 0.0, 1.0);
+        blend.keep(a, safe);
+        for (std::size_t v = 0; v < core.size(); ++v)
+            values[v * width + s.channel[a]] += safe * s.scale[a] * all.move[v * s.noisy.width + a];
+    }
 }
 
 void report_blend(const Scaled& s, const Blend& blend, int width, DenoisedValues& out) {
@@ -297,8 +331,8 @@ DenoisedValues denoise_values(const ValueSurface& surface, const std::vector<dou
     out.smallest_noise = *least * all;
     out.largest_noise = *most * all;
     const ValueCandidateMaker maker(surface.near, surface.weight, surface.variation);
-    const Blend blend = chosen(maker, s.noisy, repaired.impulse, [&](double f) { tick(0.2 + 0.6 * f); });
-    apply(maker, s, blend, width, out.values);
+    Blend blend = chosen(maker, s.noisy, repaired.impulse, [&](double f) { tick(0.2 + 0.6 * f); });
+    apply(surface, maker, s, repaired.impulse, width, blend, out.values);
     report_blend(s, blend, width, out);
     return out;
 }

@@ -43,6 +43,20 @@ double white_share(double lower, double higher, double falls) {
 
 double error_of_white_share(Index vertices) { return vertices > 0 ? 2 / std::sqrt(static_cast<double>(vertices)) : 1; }
 
+double white_share_removed(const std::function<std::vector<double>(const std::vector<double>&)>& detail,
+                           const Neighbours& near, std::vector<double> h, const std::vector<std::uint8_t>& core) {
+    std::array<Ratio, 4> order;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        if (k > 0) h = detail(h);
+        order[k] = ratio_of(local_squares(near, h), near, core);
+    }
+    if (!(order[0].response > 0 && order[3].response > 0)) return 0;
+    const double falls = order[2].response / order[3].response * order[1].response / order[0].response;
+    const double most = std::max(white_share(order[1].quiet[0], order[3].quiet[0], falls),
+                                 white_share(order[1].quiet[1], order[3].quiet[1], falls));
+    return std::max(0.0, most - error_of_white_share(near.rows()));
+}
+
 double white_share_removed(const AlongNormals& surface, const Neighbours& near, const std::vector<Response>& candidates,
                            const Eigen::VectorXd& weights, const std::vector<std::uint8_t>& core) {
     std::vector<double> h(3 * core.size(), 0);
@@ -51,16 +65,8 @@ double white_share_removed(const AlongNormals& surface, const Neighbours& near, 
         for (std::size_t i = 0; weight > 0 && i < core.size(); ++i)
             for (int c = 0; c < 2; ++c) h[3 * i + c] += weight * candidates[k][2 * i + c];
     }
-    std::array<Ratio, 4> order;
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        if (k > 0) h = surface.linear_detail(h);
-        order[k] = ratio_of(local_squares(near, h), near, core);
-    }
-    if (!(order[0].response > 0 && order[3].response > 0)) return 0;
-    const double falls = order[2].response / order[3].response * order[1].response / order[0].response;
-    const double most = std::max(white_share(order[1].quiet[0], order[3].quiet[0], falls),
-                                 white_share(order[1].quiet[1], order[3].quiet[1], falls));
-    return std::max(0.0, most - error_of_white_share(near.rows()));
+    return white_share_removed([&](const std::vector<double>& x) { return surface.linear_detail(x); }, near,
+                               std::move(h), core);
 }
 
 }  // namespace multires

@@ -3,6 +3,8 @@
 #include "denoise/along_normals.h"
 #include "denoise/risk.h"
 
+#include <functional>
+
 /// How much of what looks like noise is white, as noise is. A rough surface, such as terrain, bark or a coarse mesh of
 /// many features, has details everywhere, too, but the less the finer they are.
 namespace multires {
@@ -28,5 +30,10 @@ double error_of_white_share(Index vertices);
 /// Cost: linear
 double white_share_removed(const AlongNormals& surface, const Neighbours& near, const std::vector<Response>& candidates,
                            const Eigen::VectorXd& weights, const std::vector<std::uint8_t>& core);
+/// The same of moves.
+/// @param detail  the linear differences of one order of three channels, #V by 3
+/// @param h       #V by 3: moves and their response to the probe; the last channel does not matter
+double white_share_removed(const std::function<std::vector<double>(const std::vector<double>&)>& detail,
+                           const Neighbours& near, std::vector<double> h, const std::vector<std::uint8_t>& core);
 
 }  // namespace multires

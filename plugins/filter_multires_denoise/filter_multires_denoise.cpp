@@ -126,6 +126,8 @@ void bind_attributes(Parameters& p, AttributeDenoiseOptions& o) {
 const Returns denoise_returns{
     {"noise", Type::real, "mesh units", "Standard deviation of the noise found, along the normals."},
     {"noise_in_edges", Type::real, "", "Automatic: the same in mean edge lengths.", false},
+    {"noise_least", Type::real, "mesh units", "Automatic: the same where it is least, if it varies.", false},
+    {"noise_most", Type::real, "mesh units", "Automatic: the same where it is largest.", false},
     {"noise_in_all_directions", Type::boolean, "", "Automatic: the noise was found within the surface too.", false},
     {"noise_along_axis", Type::boolean, "", "Automatic: most of the noise goes along one axis of space.", false},
     {"rounding_step", Type::real, "mesh units",

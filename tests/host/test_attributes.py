@@ -227,7 +227,7 @@ def test_noise_on_the_swirl_is_found_and_taken_away(contrast):
     after = ms.current_mesh().vertex_color_matrix()
     rms = [np.sqrt(((colors - true) ** 2).mean()) for colors in (noisy, after)]
     assert rms[1] < 0.9 * rms[0] if contrast < 1 else rms[1] <= rms[0]
-    assert len(report["color_threshold"]) == len(report["color_zeroed"]) == len(report["color_noise_per_level"]) > 5
+    assert 0 <= report["color_estimated_rms_after"] <= report["color_estimated_rms_before"]
     assert_same_geometry(before, snapshot(ms))
 
 

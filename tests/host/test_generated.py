@@ -24,7 +24,7 @@ MORE = {
     "apply_attributes_multires_relaxation": [{"quality": True, "texcoord": True, "wedge_texcoord": True, "custom": True}],
     "apply_attributes_multires_band": [{"quality": True}, {"quality": True, "method": "spline", "measure": True}],
     "apply_attributes_multires_band_custom": [{"method": "spline", "measure": True}],
-    "apply_attributes_multires_denoise": [{"quality": True, "custom": True}],
+    "apply_attributes_multires_denoise": [{"quality": True, "custom": True}, {"rule": "soft"}],
     "apply_coord_multires_denoise": [{"method": "normal field"}, {"method": "soft threshold"},
                                      {"method": "hard threshold", "keep_volume": True}],
     "compute_scalar_multires_difference_per_vertex": [{"wavelength": 0.2}],

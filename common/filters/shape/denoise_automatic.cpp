@@ -64,6 +64,9 @@ void tell(const AutomaticStats& stats, const Shares& shares, Report& report) {
     report.say(text("Noise of %.3g edge lengths along the normals%s%s.", stats.deviation / stats.edge,
                     stats.all_directions ? " and within the surface" : "",
                     stats.axis ? ", most of it along one axis of space" : ""));
+    if (stats.varies)
+        report.say(text("It varies over the surface, from %.3g to %.3g edge lengths, and so does what is done.",
+                        stats.least_deviation / stats.edge, stats.most_deviation / stats.edge));
     report.say(text("Blend: %.0f %% low pass, %.0f %% local Wiener filter, %.0f %% normal field (piecewise smooth), "
                     "%.0f %% guided normals after it (creases), %.0f %% unchanged.",
                     100 * shares.linear, 100 * shares.wiener, 100 * shares.field, 100 * shares.guided,
@@ -90,6 +93,8 @@ Positions by_automatic(const Layer& layer, const DenoiseOptions& o, double given
     const Shares shares = shares_of(stats.weights);
     report.add("noise", o.strength > 0 ? stats.deviation / o.strength : 0.0, "mesh units");
     report.add("noise_in_edges", o.strength > 0 && stats.edge > 0 ? stats.deviation / o.strength / stats.edge : 0.0);
+    report.add("noise_least", o.strength > 0 ? stats.least_deviation / o.strength : 0.0, "mesh units");
+    report.add("noise_most", o.strength > 0 ? stats.most_deviation / o.strength : 0.0, "mesh units");
     report.add("noise_in_all_directions", stats.all_directions);
     report.add("noise_along_axis", stats.axis);
     report.add("rounding_step", stats.step, "mesh units");

@@ -442,6 +442,10 @@ class DenoiseReport(Movement, Result):
     """Standard deviation of the noise found, along the normals (mesh units)."""
     noise_in_edges: float | None = None
     """Automatic: the same in mean edge lengths."""
+    noise_least: float | None = None
+    """Automatic: the same where it is least, if it varies (mesh units)."""
+    noise_most: float | None = None
+    """Automatic: the same where it is largest (mesh units)."""
     noise_in_all_directions: bool | None = None
     """Automatic: the noise was found within the surface too."""
     noise_along_axis: bool | None = None
@@ -676,17 +680,42 @@ class FilterCustomAttributesReport(AttributeChanges, Result):
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
-class DenoiseAttributesReport(PyramidUse, AttributeChanges, Result):
+class DenoiseAttributesReport(AttributeChanges, Result):
     """What denoise_attributes() returns."""
 
     noise: dict[str, float] = dataclasses.field(default_factory=dict)
     """Deviation of the noise found (units of the attribute). By attribute."""
+    noise_least: dict[str, float] = dataclasses.field(default_factory=dict)
+    """Automatic: the same where it is least (units of the attribute). By attribute."""
+    noise_most: dict[str, float] = dataclasses.field(default_factory=dict)
+    """Automatic: the same where it is largest (units of the attribute). By attribute."""
+    impulses: dict[str, int] = dataclasses.field(default_factory=dict)
+    """Automatic: vertices whose values were found to be impulses and replaced. By attribute."""
+    rounding_step: dict[str, float] = dataclasses.field(default_factory=dict)
+    """Automatic: step that the values were rounded to, if that is what the noise is; otherwise 0 (units of the
+    attribute). By attribute."""
+    estimated_rms_before: dict[str, float] = dataclasses.field(default_factory=dict)
+    """Automatic: expected RMS error of the values (units of the attribute). By attribute."""
+    estimated_rms_after: dict[str, float] = dataclasses.field(default_factory=dict)
+    """Automatic: the same of the result (units of the attribute). By attribute."""
+    share_low_pass: dict[str, float] = dataclasses.field(default_factory=dict)
+    """Automatic: weight of the low passes in the result. By attribute."""
+    share_wiener: dict[str, float] = dataclasses.field(default_factory=dict)
+    """Automatic: weight of the local Wiener filters. By attribute."""
+    share_total_variation: dict[str, float] = dataclasses.field(default_factory=dict)
+    """Automatic: weight of total variation. By attribute."""
     noise_per_level: dict[str, Array] = dataclasses.field(default_factory=dict)
-    """Noise in the details of each level (units of the attribute). By attribute."""
+    """Thresholds: noise in the details of each level (units of the attribute). By attribute."""
     threshold: dict[str, Array] = dataclasses.field(default_factory=dict)
-    """The threshold used on each level (units of the attribute). By attribute."""
+    """Thresholds: what was used on each level (units of the attribute). By attribute."""
     zeroed: dict[str, Array] = dataclasses.field(default_factory=dict)
-    """Share of each level's details that became 0. By attribute."""
+    """Thresholds: share of each level's details that became 0. By attribute."""
+    pyramid_reused: bool | None = None
+    """The pyramid kept with the mesh was used; otherwise one was built and kept."""
+    locked_vertices: int | None = None
+    """Vertices at non-manifold edges or points, which are neither moved nor removed."""
+    unreferenced_vertices: int | None = None
+    """Vertices without a face, which stay where they are."""
 
 
 @dataclasses.dataclass(frozen=True, kw_only=True, eq=False)
@@ -1843,14 +1872,15 @@ def filter_custom_attributes(
 @also_flat(Pyramid)
 def denoise_attributes(
     ms: MeshSet, *, color: bool | None = None, quality: bool | None = None, custom: bool = False,
-    custom_names: str = "", linear_light: bool = False, rule: Literal["soft", "hard"] = "soft", automatic: bool = True,
-    strength: float = 1.0, threshold: float = 0.0, finest_level: int = 0, coarsest_level: int = 1000000000,
-    selected: bool | None = None, quality_mask: bool = False, pyramid: Pyramid | None = None,
+    custom_names: str = "", linear_light: bool = False, rule: Literal["soft", "hard", "automatic"] = "automatic",
+    automatic: bool = True, strength: float = 1.0, threshold: float = 0.0, finest_level: int = 0,
+    coarsest_level: int = 1000000000, selected: bool | None = None, quality_mask: bool = False,
+    pyramid: Pyramid | None = None,
 ) -> DenoiseAttributesReport:
-    """Removes noise from vertex colour, quality or custom attributes by thresholding their details, without a parameter
-    to set; the geometry stays as it is.
+    """Removes noise from vertex colour, quality or custom attributes, without a parameter to set: the noise and
+    impulses are measured, and what is done is chosen by the estimated error; the geometry stays as it is.
 
-    The report says how much noise was found at each level, the threshold used and the share of details that went.
+    The report says what was found and done.
 
     The filter apply_attributes_multires_denoise, on the current mesh; the mesh is unchanged if it fails.
 
@@ -1862,14 +1892,17 @@ def denoise_attributes(
         custom_names: Which custom attributes: their names, separated by commas. Empty: all, but for source_vertex.
         linear_light: Decode colours (sRGB) to amounts of light before computing with them, and encode the result. Right
             for photographs; off, colours are computed with as they are stored, right for colour scales.
-        rule: Soft: details up to the threshold go, all others become shorter by it. Hard: details up to the threshold
-            go, the others stay.
-        automatic: A threshold for each level from the noise found in the attribute.
-        strength: Factor for the automatic threshold: 1 removes the noise found. A number, 0 to 100.
+        rule: Automatic: impulses are replaced, the noise is measured, at each vertex where it varies, and what comes
+            nearest to the truth by its estimated risk is done: low passes, local Wiener filters, total variation, or
+            nothing. Soft: details of the pyramid up to the threshold go, all others become shorter by it. Hard: details
+            up to the threshold go, the others stay.
+        automatic: The noise is measured. Off: the threshold below is used, by the soft rule if the rule is automatic.
+        strength: Factor for the noise that is measured, or the automatic threshold: 1 removes the noise found, 0
+            changes nothing. A number, 0 to 100.
         threshold: If it is not automatic: the length up to which details are dropped, in units of the attribute, for
             colours of 255. A number, at least 0.
-        finest_level: First level that is denoised, 0 is the finest. A whole number, at least 0.
-        coarsest_level: Levels up to, but not with, this one are denoised. A whole number, at least 1.
+        finest_level: Thresholds only: first level that is denoised, 0 is the finest. A whole number, at least 0.
+        coarsest_level: Thresholds only: levels up to, but not with, this one are denoised. A whole number, at least 1.
         selected: Change selected vertices and the vertices of selected faces only. The selection stays as it is. None:
             derived from the mesh.
         quality_mask: Scale the effect at each vertex by its quality: 0 is no change, 1 the full one, values outside are
@@ -1880,6 +1913,8 @@ def denoise_attributes(
         pymeshlab.PyMeshLabException: the mesh or a value will not do; it says why.
 
     See:
+        Rudin, Osher, Fatemi, "Nonlinear total variation based noise removal algorithms", Physica D 1992.
+        Ramani, Blu, Unser, "Monte-Carlo SURE", IEEE Transactions on Image Processing 2008.
         Roy, Foufou, Koschan, Truchetet, Abidi, "Multiresolution Analysis for Irregular Meshes", SPIE Photonics
             Technologies 2003.
     """
