@@ -1,6 +1,7 @@
 #include "filters/across_seams.h"
 
 #include "filters/original.h"
+#include "measure/measure.h"
 #include "mesh/seams.h"
 
 #include <algorithm>
@@ -55,6 +56,17 @@ std::shared_ptr<const Original> closed_original(const JoinedVertices& seams, con
     return out;
 }
 
+/// The mean over the vertices, which the closed layer has fewer of.
+Report with_mean_of_all(const Report& of_closed, const Positions& before, const Positions& after) {
+    Report out;
+    for (const std::string& line : of_closed.lines()) out.say(line);
+    for (const Report::Entry& e : of_closed.entries()) {
+        const bool mean = e.key == "rms_displacement";
+        out.add(e.key, mean ? Report::Value(displacement(before, after).rms) : e.value, e.unit);
+    }
+    return out;
+}
+
 }  // namespace
 
 std::optional<Layer> closed_layer(const Layer& layer) {
@@ -75,6 +87,7 @@ Result across_seams(const Layer& layer, Session& session, const std::function<Re
         Positions all = spread(seams, *result.positions);
         for (std::size_t v = 0; v < all.size(); ++v)  // 0 and -0 are one place
             if (all[v] == layer.mesh.positions[v]) all[v] = layer.mesh.positions[v];
+        result.report = with_mean_of_all(result.report, layer.mesh.positions, all);
         result.positions = std::move(all);
     }
     if (result.quality) result.quality = spread(seams, *result.quality);

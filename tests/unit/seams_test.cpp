@@ -162,6 +162,7 @@ TEST(Seams, MoveOnlyWhereAllTheirVerticesAreSelected) {
         EXPECT_EQ((*result.positions)[seams.first[seams.joined[v]]], layer.mesh.positions[v]);
     }
     EXPECT_GT(largest_distance(*result.positions, layer.mesh.positions), 0);
+    EXPECT_EQ(number(result.report, "rms_displacement"), displacement(layer.mesh.positions, *result.positions).rms);
 }
 
 TEST(Seams, KeepTheOriginalTheyCameFrom) {
