@@ -360,23 +360,11 @@ Positions without_impulses(const Faces& faces, const Positions& positions, const
 }
 
 /// The blends of the classes of noise, by their shares in each vertex.
-/// @param of_class  weights of the candidates; those missing at the end are 0
-Positions blend_by_class(const CandidateMaker& maker, const Positions& from,
-                         const std::vector<Eigen::VectorXd>& of_class, const NoiseClasses& classes,
-                         const std::vector<double>& deviation, const std::function<void(double)>& tick) {
-    const auto blend = [&](std::size_t c) {
-        Eigen::VectorXd weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all_candidates().size()));
-        weights.head(of_class[c].size()) = of_class[c];
-        const double count = static_cast<double>(of_class.size());
-        return maker.blend(weights, [&](double f) { tick((static_cast<double>(c) + f) / count); });
-    };
-    if (of_class.size() == 1) return blend(0);
-    Positions out = from;
-    for (std::size_t c = 0; c < of_class.size(); ++c) {
-        const Positions after = blend(c);
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] += classes.shares(deviation[i])[c] * (after[i] - from[i]);
-    }
-    return out;
+LocalWeights local_weights(const Choice& choice, const NoiseClasses& classes, const std::vector<double>& deviation) {
+    std::vector<std::array<double, 3>> share;
+    for (std::size_t v = 0; choice.of_class.size() > 1 && v < deviation.size(); ++v)
+        share.push_back(classes.shares(deviation[v]));
+    return {choice.of_class, std::move(share)};
 }
 
 /// What is known before the choice.
@@ -538,8 +526,8 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     const bool around = within.noisy || within.likely;
     stats.rms_before = std::sqrt(choice.before + (around ? within.before * within.before : 0));
     stats.rms_after = std::sqrt(height * height * choice.after + side * side * error_within(within, shares));
-    Positions after = blend_by_class(maker, relaxed, choice.of_class, classes, assumed.deviation,
-                                     [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
+    Positions after = maker.blend(local_weights(choice, classes, assumed.deviation),
+                                  [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
     keep_within_noise(relaxed, assumed.deviation, after);
     if (found.rounded) keep_within_cells(positions, found.voxels ? stats.step : stats.step / 2, after);
     stats.edge = mean_edge_length(faces, after);

@@ -19,10 +19,6 @@ constexpr double field_push = 0.1, guided_push = 0.4;
 constexpr double normal_rounding = 1e-4;  ///< differences of normals that coordinates in single precision make
 constexpr int fit_steps = 8;              ///< more would follow the normals further and lose volume
 
-void add_scaled(std::vector<double>& to, double factor, const std::vector<double>& from) {
-    for (std::size_t i = 0; i < to.size(); ++i) to[i] += factor * from[i];
-}
-
 /// Move and response of a low pass: its first two channels.
 Response of_low_pass(const std::vector<double>& low) {
     Response out(low.size() / 3 * 2);
@@ -45,6 +41,20 @@ std::vector<Candidate> all_candidates() {
     add(Family::normal_field, field_strength.size());
     add(Family::guided_normals, guided_steps_after.size());
     return all;
+}
+
+LocalWeights::LocalWeights(const std::vector<Eigen::VectorXd>& of_class, std::vector<std::array<double, 3>> share)
+    : share_(std::move(share)) {
+    for (const Eigen::VectorXd& weights : of_class) {
+        of_class_.emplace_back(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all_candidates().size())));
+        of_class_.back().head(weights.size()) = weights;
+    }
+}
+
+bool LocalWeights::any(std::size_t candidate) const {
+    return std::any_of(of_class_.begin(), of_class_.end(), [&](const Eigen::VectorXd& weights) {
+        return weights[static_cast<Eigen::Index>(candidate)] > 0;
+    });
 }
 
 CandidateMaker::CandidateMaker(const Faces& faces, const Positions& positions, const Incidence& at,
@@ -215,55 +225,57 @@ void CandidateMaker::add_guided(Responses& responses, const std::function<void(d
     }
 }
 
-void CandidateMaker::add_heights(const Eigen::VectorXd& weights, Smoother smoother, std::vector<double>& height) const {
+void CandidateMaker::add_heights(const LocalWeights& weights, Smoother smoother, std::vector<double>& height) const {
     const std::vector<Candidate> all = all_candidates();
     std::size_t levels = 0;
     bool shrunk = false;
     for (std::size_t k = 0; k < all.size(); ++k) {
-        if (weights[k] > 0 && all[k].is(Family::low_pass, smoother))
+        if (weights.any(k) && all[k].is(Family::low_pass, smoother))
             levels = std::max<std::size_t>(levels, all[k].index + 1);
-        shrunk |= weights[k] > 0 && all[k].is(Family::wiener, smoother);
+        shrunk |= weights.any(k) && all[k].is(Family::wiener, smoother);
     }
     if (shrunk) levels = low_pass_steps.size();
     if (levels == 0) return;
     const LowPasses low = low_passes(smoother, levels);
     const std::vector<Band> split = shrunk ? bands(low) : std::vector<Band>();
+    const auto add = [&](std::size_t k, const Response& moves) {
+        for (std::size_t v = 0; v < height.size(); ++v) height[v] += weights.at(k, v) * moves[2 * v];
+    };
     for (std::size_t k = 0; k < all.size(); ++k) {
-        if (!(weights[k] > 0)) continue;
-        if (all[k].is(Family::low_pass, smoother)) add_scaled(height, weights[k], of_low_pass(low[all[k].index]));
-        if (all[k].is(Family::wiener, smoother))
-            add_scaled(height, weights[k], wiener(low, split, wiener_severity[all[k].index]));
+        if (!weights.any(k)) continue;
+        if (all[k].is(Family::low_pass, smoother)) add(k, of_low_pass(low[all[k].index]));
+        if (all[k].is(Family::wiener, smoother)) add(k, wiener(low, split, wiener_severity[all[k].index]));
     }
 }
 
-Positions CandidateMaker::blend(const Eigen::VectorXd& weights, const std::function<void(double)>& tick) const {
+Positions CandidateMaker::blend(const LocalWeights& weights, const std::function<void(double)>& tick) const {
     const std::vector<Candidate> all = all_candidates();
-    std::vector<double> height(2 * probe_.size(), 0);
+    std::vector<double> height(probe_.size(), 0);
     for (const Smoother smoother : smoothers) {
         add_heights(weights, smoother, height);
         tick(0.15 + 0.12 * static_cast<double>(smoother));
     }
     Positions out = positions_;
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] += height[2 * i] * normal_[i];
+    for (std::size_t i = 0; i < out.size(); ++i) out[i] += height[i] * normal_[i];
     Positions after;
-    const auto add = [&](double weight) {
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] += weight * (after[i] - positions_[i]);
+    const auto add = [&](std::size_t k) {
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] += weights.at(k, i) * (after[i] - positions_[i]);
     };
     bool guided = false;
-    for (std::size_t k = 0; k < all.size(); ++k) guided |= all[k].family == Family::guided_normals && weights[k] > 0;
+    for (std::size_t k = 0; k < all.size(); ++k) guided |= all[k].family == Family::guided_normals && weights.any(k);
     for (std::size_t k = 0; k < all.size(); ++k) {
         const bool last = all[k].index + 1 == field_strength.size();
-        if (all[k].family != Family::normal_field || !(weights[k] > 0 || (guided && last))) continue;
+        if (all[k].family != Family::normal_field || !(weights.any(k) || (guided && last))) continue;
         after =
             field(positions_, field_strength[all[k].index], [&](double f) { tick(0.4 + 0.2 * (all[k].index + f)); });
-        add(weights[k]);
+        add(k);
     }
     int done = 0;
     for (std::size_t k = 0; k < all.size() && guided; ++k) {
         if (all[k].family != Family::guided_normals) continue;
         after = guided_steps(faces_, after, at_, graph(), guided_steps_after[all[k].index] - done);
         done = guided_steps_after[all[k].index];
-        add(weights[k]);
+        add(k);
         tick(0.8 + 0.2 * done / guided_steps_after.back());
     }
     return out;

@@ -38,6 +38,27 @@ struct Candidate {
 /// All of them, in the order of their weights.
 std::vector<Candidate> all_candidates();
 
+/// Weights of the candidates: of each class of vertices, and how much each vertex is of each class.
+class LocalWeights {
+public:
+    /// @param of_class  one at least; those of candidates missing at the end are 0
+    /// @param share     #V: of the classes, sums of 1; empty if there is one class
+    LocalWeights(const std::vector<Eigen::VectorXd>& of_class, std::vector<std::array<double, 3>> share);
+
+    bool any(std::size_t candidate) const;
+    double at(std::size_t candidate, std::size_t v) const {
+        if (share_.empty()) return of_class_[0][static_cast<Eigen::Index>(candidate)];
+        double sum = 0;
+        for (std::size_t c = 0; c < of_class_.size(); ++c)
+            sum += share_[v][c] * of_class_[c][static_cast<Eigen::Index>(candidate)];
+        return sum;
+    }
+
+private:
+    std::vector<Eigen::VectorXd> of_class_;
+    std::vector<std::array<double, 3>> share_;
+};
+
 /// A surface that is to be denoised, with what its candidates share.
 class CandidateMaker {
 public:
@@ -60,7 +81,7 @@ public:
     void add_guided(Responses& responses, const std::function<void(double)>& tick) const;
 
     /// Where a blend of candidates puts the vertices. Candidates of weight 0 are not made.
-    Positions blend(const Eigen::VectorXd& weights, const std::function<void(double)>& tick) const;
+    Positions blend(const LocalWeights& weights, const std::function<void(double)>& tick) const;
 
 private:
     using LowPasses = std::vector<std::vector<double>>;  ///< #V by 3 each: moves of the surface and of two noises
@@ -68,8 +89,8 @@ private:
     LowPasses low_passes(Smoother smoother, std::size_t levels) const;
     LowPasses along_normals(const std::vector<double>& weight, std::size_t levels) const;
     LowPasses spatial(std::size_t levels) const;
-    /// Adds the linear candidates and those made of them.
-    void add_heights(const Eigen::VectorXd& weights, Smoother smoother, std::vector<double>& height) const;
+    /// Adds the linear candidates and those made of them; `height` #V.
+    void add_heights(const LocalWeights& weights, Smoother smoother, std::vector<double>& height) const;
     /// What lies between two low passes, of all three channels.
     struct Band {
         std::vector<double> detail;  ///< #V by 3
