@@ -5,6 +5,7 @@
 #include "mesh/seams.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace multires {
 namespace {
@@ -56,6 +57,20 @@ std::shared_ptr<const Original> closed_original(const JoinedVertices& seams, con
     return out;
 }
 
+/// Another original for a session, until this ends.
+class OwnOriginal {
+public:
+    OwnOriginal(Session& session, std::shared_ptr<const Original> other)
+        : session_(session), own_(std::exchange(session.original, std::move(other))) {}
+    ~OwnOriginal() { session_.original = std::move(own_); }
+    OwnOriginal(const OwnOriginal&) = delete;
+    OwnOriginal& operator=(const OwnOriginal&) = delete;
+
+private:
+    Session& session_;
+    std::shared_ptr<const Original> own_;
+};
+
 /// The mean over the vertices, which the closed layer has fewer of.
 Report with_mean_of_all(const Report& of_closed, const Positions& before, const Positions& after) {
     Report out;
@@ -79,10 +94,10 @@ Result across_seams(const Layer& layer, Session& session, const std::function<Re
     const JoinedVertices seams = join_seams(layer.mesh);
     if (seams.first.empty()) return filter(layer);
     const Layer joined = closed(seams, layer);
-    const std::shared_ptr<const Original> original = session.original;
-    session.original = closed_original(seams, layer, joined, original);
-    Result result = filter(joined);
-    session.original = original;
+    Result result = [&] {
+        const OwnOriginal meanwhile(session, closed_original(seams, layer, joined, session.original));
+        return filter(joined);
+    }();
     if (result.positions) {
         Positions all = spread(seams, *result.positions);
         for (std::size_t v = 0; v < all.size(); ++v)  // 0 and -0 are one place

@@ -178,13 +178,22 @@ TEST(Seams, KeepTheOriginalTheyCameFrom) {
         EXPECT_EQ(session.original, given);
         return std::pair(std::move(result), original_after(given.get(), layer.mesh, *result.positions));
     };
-    const auto [first, original] = call(nullptr);
-    layer.mesh.positions = *first.positions;
+    const auto first = call(nullptr);
+    layer.mesh.positions = *first.first.positions;
     options.relative_to = RelativeTo::original;
-    const auto [second, same] = call(original);
-    EXPECT_LE(largest_distance(*second.positions, *first.positions), 1e-12);
+    const auto second = call(first.second);
+    EXPECT_LE(largest_distance(*second.first.positions, *first.first.positions), 1e-12);
+    const std::shared_ptr<const Original> same = second.second;
     layer.mesh.positions[0].x() += 0.1;
     EXPECT_NE(refusal([&] { call(same); }).find("relative_to"), std::string::npos);
+    layer.mesh.positions[0].x() -= 0.1;
+    options.cutoff = -1;
+    Session session;
+    session.original = same;
+    EXPECT_NE(
+        refusal([&] { across_seams(layer, session, [&](const Layer& l) { return low_pass(l, options, session); }); }),
+        "");
+    EXPECT_EQ(session.original, same);
 }
 
 }  // namespace multires
