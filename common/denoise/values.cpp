@@ -1,5 +1,6 @@
 #include "denoise/values.h"
 
+#include "base/decompositions.h"
 #include "base/parallel.h"
 #include "denoise/field_noise.h"
 #include "denoise/value_candidates.h"
@@ -143,6 +144,42 @@ double passed_noise(const std::vector<Response>& responses, const Eigen::VectorX
     return probe.empty() ? 0 : squares / static_cast<double>(probe.size());
 }
 
+/// Weights of least risk to rounding, of those that are not next to nothing.
+/// @param weights  nearly of least risk
+Eigen::VectorXd polished(const Risk& risk, const Eigen::VectorXd& weights) {
+    constexpr double least = 1e-3;
+    const Eigen::Index input = weights.size();  // its weight is what the others leave
+    Eigen::VectorXd t(input + 1);
+    t << weights, 1 - weights.sum();
+    Eigen::Index most = input;
+    const auto steep = [&](Eigen::Index j, Eigen::Index k) {
+        return j < input && k < input ? risk.quadratic(j, k) : 0.0;
+    };
+    for (Eigen::Index round = 0; round <= input; ++round) {
+        t = (t.array() < least).select(0, t);
+        t.maxCoeff(&most);  // the others' ways from it are free
+        std::vector<Eigen::Index> active;
+        for (Eigen::Index k = 0; k <= input; ++k)
+            if (k != most && t[k] > 0) active.push_back(k);
+        const auto count = static_cast<Eigen::Index>(active.size());
+        Eigen::MatrixXd a(count, count);
+        Eigen::VectorXd b(count);
+        const auto slope = [&](Eigen::Index k) { return (k < input ? risk.linear[k] : 0.0) + steep(k, most); };
+        for (Eigen::Index j = 0; j < count; ++j) {
+            b[j] = slope(most) - slope(active[j]);
+            for (Eigen::Index k = 0; k < count; ++k)
+                a(j, k) =
+                    steep(active[j], active[k]) - steep(active[j], most) - steep(most, active[k]) + steep(most, most);
+        }
+        const Eigen::VectorXd x = count > 0 ? solve_symmetric(a, b) : Eigen::VectorXd();
+        if (!x.allFinite()) return weights;
+        for (Eigen::Index j = 0; j < count; ++j) t[active[j]] = x[j];
+        t[most] = 1 - x.sum();
+        if (t.minCoeff() >= 0 && (t.array() == 0 || t.array() >= least).all()) return t.head(input);
+    }
+    return weights;
+}
+
 Blend blend_of(const NoisyValues& noisy, const Rows& rows) {
     Neighbours alone;  // no differences along edges: the error of the values counts
     alone.rim.assign(rows.vertex.size(), 0);
@@ -159,7 +196,9 @@ Blend blend_of(const NoisyValues& noisy, const Rows& rows) {
         const double correction = noise_of_residual(rows.responses[c]);
         risk.constant *= correction;
         risk.linear *= correction;
-        Eigen::VectorXd weights = least_risk(risk);
+        // Candidates that do nearly the same would share their weight by rounding.
+        risk.quadratic.diagonal().array() += 1e-6 * risk.quadratic.trace();
+        Eigen::VectorXd weights = polished(risk, least_risk(risk));
         // Not clearly better: the sums scatter, and so does the noise found.
         const double most = 0.93 - 3 / std::sqrt(static_cast<double>(rows.vertex.size()));
         if (!(risk.at(weights) < most * risk.constant)) weights.setZero();

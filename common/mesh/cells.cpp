@@ -2,20 +2,37 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
+#include <utility>
 
 namespace multires {
 namespace {
 
-int longest_side(const Positions& p, const std::vector<Index>& cell) {
-    Vec3 low = p[cell.front()], high = low;
-    for (const Index v : cell) {
-        low = low.cwiseMin(p[v]);
-        high = high.cwiseMax(p[v]);
-    }
-    int axis = 0;
-    (high - low).maxCoeff(&axis);
-    return axis;
+/// The vertex farthest from a point; of those that are so but for rounding the first.
+Index farthest(const Positions& p, const std::vector<Index>& cell, const Vec3& from) {
+    constexpr double but_for_rounding = 1 - 1e-9;
+    double most = 0;
+    for (const Index v : cell) most = std::max(most, (p[v] - from).squaredNorm());
+    Index first = -1;
+    for (const Index v : cell)
+        if ((first < 0 || v < first) && (p[v] - from).squaredNorm() >= but_for_rounding * most) first = v;
+    return first;
+}
+
+/// How far each vertex of a cell is from one of its ends to the other, whole numbers, so that what is the same but for
+/// rounding is the same.
+std::vector<std::pair<std::int64_t, Index>> along(const Positions& p, const std::vector<Index>& cell) {
+    Vec3 mean = Vec3::Zero();
+    for (const Index v : cell) mean += p[v] / static_cast<double>(cell.size());
+    const Vec3 begin = p[farthest(p, cell, mean)], way = p[farthest(p, cell, begin)] - begin;
+    const double length = way.squaredNorm();
+    constexpr double steps = 1 << 24;
+    std::vector<std::pair<std::int64_t, Index>> out;
+    out.reserve(cell.size());
+    for (const Index v : cell)
+        out.emplace_back(length > 0 ? std::llround(steps * way.dot(p[v] - begin) / length) : 0, v);
+    return out;
 }
 
 void split(const Positions& p, std::vector<Index> cell, std::size_t most, std::vector<std::vector<Index>>& cells) {
@@ -24,10 +41,11 @@ void split(const Positions& p, std::vector<Index> cell, std::size_t most, std::v
         cells.push_back(std::move(cell));
         return;
     }
-    const int axis = longest_side(p, cell);
-    const auto middle = cell.begin() + static_cast<std::ptrdiff_t>(cell.size() / 2);
-    std::nth_element(cell.begin(), middle, cell.end(),
-                     [&](Index a, Index b) { return p[a][axis] < p[b][axis] || (p[a][axis] == p[b][axis] && a < b); });
+    std::vector<std::pair<std::int64_t, Index>> place = along(p, cell);
+    const auto half = static_cast<std::ptrdiff_t>(cell.size() / 2);
+    std::nth_element(place.begin(), place.begin() + half, place.end());
+    std::transform(place.begin(), place.end(), cell.begin(), [](const auto& at) { return at.second; });
+    const auto middle = cell.begin() + half;
     split(p, {cell.begin(), middle}, most, cells);
     split(p, {middle, cell.end()}, most, cells);
 }

@@ -124,7 +124,7 @@ TEST(DenoiseAttributes, EstimatesItsError) {
 }
 
 TEST(DenoiseAttributes, FollowsNoiseThatVaries) {
-    const Mesh& mesh = scene().layer.mesh;
+    const Mesh mesh = shapes::irregular_sphere(15000);
     const std::vector<double> smooth = shapes::harmonic(mesh.positions, 2, 1);
     std::vector<double> values = smooth;
     shapes::Random random(5);
