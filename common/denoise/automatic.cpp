@@ -60,12 +60,6 @@ std::vector<double> deviations(const Faces& faces, const Positions& positions, c
     return out;
 }
 
-double root_mean_square(const std::vector<double>& values) {
-    double sum = 0;
-    for (const double x : values) sum += x * x;
-    return values.empty() ? 0 : std::sqrt(sum / static_cast<double>(values.size()));
-}
-
 constexpr Index whole_up_to = 25000;  ///< vertices; larger meshes are chosen for on patches
 constexpr Index patches = 12, patch_size = 1500;
 /// What `fast` measures on, and how many of the former patches it chooses on.
@@ -335,7 +329,7 @@ double error_within(const WithinSurface& within, const Shares& shares) {
 /// Takes moves back that are longer than noise: thin sheets and single features may be drawn in.
 /// @param deviation  #V: of the noise
 void keep_within_noise(const Positions& from, const std::vector<double>& deviation, Positions& positions) {
-    const double least = root_mean_square(deviation);
+    const double least = rms(deviation);
     for (std::size_t i = 0; i < from.size(); ++i) {
         const Vec3 move = positions[i] - from[i];
         const double length = move.norm(), most = farthest * std::max(deviation[i], least);
@@ -391,7 +385,7 @@ struct Measured {
 /// Noise that differs from place to place is white in most places, or it would not be found.
 void set_varying(std::vector<double> deviation, Measured& m) {
     m.deviation = std::move(deviation);
-    m.along_normals = root_mean_square(m.deviation);
+    m.along_normals = rms(m.deviation);
     m.certain = certain_if_varying;
     m.noise.along_normals = m.along_normals;
     m.noise.at_least = std::sqrt(m.certain) * m.along_normals;
@@ -431,7 +425,7 @@ Measured measured(const Faces& faces, const Positions& positions, const Incidenc
         m.noise.axis.reset();
     }
     m.deviation = deviations(faces, m.start, near, m.noise, edge);
-    m.along_normals = root_mean_square(m.deviation);
+    m.along_normals = rms(m.deviation);
     m.certain = m.along_normals > 0 ? std::pow(m.noise.at_least / m.along_normals, 2) : 0;
     return m;
 }

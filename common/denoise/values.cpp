@@ -7,6 +7,7 @@
 #include "denoise/value_impulses.h"
 #include "denoise/value_steps.h"
 #include "denoise/white_share.h"
+#include "measure/measure.h"
 #include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
 
@@ -18,12 +19,6 @@ namespace {
 
 constexpr double most_correction = 1.2;   ///< of the variance of the noise
 constexpr std::size_t most_rows = 30000;  ///< vertices whose risk is summed up
-
-double rms(const std::vector<double>& x) {
-    double squares = 0;
-    for (const double d : x) squares += d * d;
-    return x.empty() ? 0 : std::sqrt(squares / static_cast<double>(x.size()));
-}
 
 /// The largest noise that the distribution of the values allows, if that is clearly less than what was found: white
 /// noise of deviation s makes their density f so smooth that (log f)'' >= -1 / s^2 (what is left of Tweedie's formula,
@@ -317,10 +312,10 @@ void smooth_steps(const ValueSurface& surface, const std::vector<double>& channe
 }  // namespace
 
 ValueSurface::ValueSurface(const Mesh& mesh)
-    : positions(mesh.positions),
-      near(neighbours(mesh.faces, vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size())))),
-      variation(near) {
-    const Incidence at = vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()));
+    : ValueSurface(mesh, vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()))) {}
+
+ValueSurface::ValueSurface(const Mesh& mesh, const Incidence& at)
+    : positions(mesh.positions), near(neighbours(mesh.faces, at)), variation(near) {
     weight = cotangent_weights(mesh.faces, at, near, mesh.positions);
     const Array<Vec3> normal = vertex_normals(mesh.faces, mesh.positions);
     bend.assign(mesh.positions.size(), 0);

@@ -19,6 +19,9 @@ struct ValueSurface {
 
     /// The mesh must live as long.
     explicit ValueSurface(const Mesh& mesh);
+
+private:
+    ValueSurface(const Mesh& mesh, const Incidence& at);
 };
 
 struct DenoisedValues {

@@ -10,41 +10,32 @@
 namespace multires {
 namespace {
 
-/// The values of what vertices became, at each of them.
+/// The values at some places, one after the other: JoinedVertices::first gives those of the closed mesh,
+/// JoinedVertices::joined takes them back to every vertex.
 template <class Values>
-Values spread(const JoinedVertices& seams, const Values& of_joined, std::size_t width = 1) {
-    Values out(seams.joined.size() * width);
-    for (std::size_t v = 0; v < seams.joined.size(); ++v)
-        std::copy_n(of_joined.begin() + static_cast<std::ptrdiff_t>(seams.joined[v] * width), width,
-                    out.begin() + static_cast<std::ptrdiff_t>(v * width));
-    return out;
-}
-
-/// The values of the first vertices of each place.
-template <class Values>
-Values gathered(const JoinedVertices& seams, const Values& all, std::size_t width = 1) {
-    Values out(seams.first.size() * width);
-    for (std::size_t v = 0; v < seams.first.size(); ++v)
-        std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(seams.first[v] * width), width,
-                    out.begin() + static_cast<std::ptrdiff_t>(v * width));
+Values at(const std::vector<Index>& places, const Values& all, std::size_t width = 1) {
+    Values out(places.size() * width);
+    for (std::size_t k = 0; k < places.size(); ++k)
+        std::copy_n(all.begin() + static_cast<std::ptrdiff_t>(places[k] * width), width,
+                    out.begin() + static_cast<std::ptrdiff_t>(k * width));
     return out;
 }
 
 template <class Values>
 Values least(const JoinedVertices& seams, const Values& all) {
-    Values out = gathered(seams, all);
+    Values out = at(seams.first, all);
     for (std::size_t v = 0; v < all.size(); ++v) out[seams.joined[v]] = std::min(out[seams.joined[v]], all[v]);
     return out;
 }
 
 Layer closed(const JoinedVertices& seams, const Layer& layer) {
     Layer out = layer;
-    out.mesh.positions = gathered(seams, layer.mesh.positions);
+    out.mesh.positions = at(seams.first, layer.mesh.positions);
     for (Face& f : out.mesh.faces)
         for (Index& v : f) v = seams.joined[v];
     if (!layer.selected_vertex.empty()) out.selected_vertex = least(seams, layer.selected_vertex);
     for (Attribute& a : out.attributes)
-        a.values = a.kind == AttributeKind::quality ? least(seams, a.values) : gathered(seams, a.values, a.width);
+        a.values = a.kind == AttributeKind::quality ? least(seams, a.values) : at(seams.first, a.values, a.width);
     return out;
 }
 
@@ -52,7 +43,7 @@ Layer closed(const JoinedVertices& seams, const Layer& layer) {
 std::shared_ptr<const Original> closed_original(const JoinedVertices& seams, const Layer& layer, const Layer& joined,
                                                 const std::shared_ptr<const Original>& original) {
     if (!original || !original->includes(layer.mesh)) return original;
-    const auto out = std::make_shared<Original>(Mesh{gathered(seams, original->positions()), joined.mesh.faces});
+    const auto out = std::make_shared<Original>(Mesh{at(seams.first, original->positions()), joined.mesh.faces});
     out->note(joined.mesh.positions, joined.mesh.faces);
     return out;
 }
@@ -99,15 +90,15 @@ Result across_seams(const Layer& layer, Session& session, const std::function<Re
         return filter(joined);
     }();
     if (result.positions) {
-        Positions all = spread(seams, *result.positions);
+        Positions all = at(seams.joined, *result.positions);
         for (std::size_t v = 0; v < all.size(); ++v)  // 0 and -0 are one place
             if (all[v] == layer.mesh.positions[v]) all[v] = layer.mesh.positions[v];
         result.report = with_mean_of_all(result.report, layer.mesh.positions, all);
         result.positions = std::move(all);
     }
-    if (result.quality) result.quality = spread(seams, *result.quality);
-    for (Attribute& a : result.attributes) a.values = spread(seams, a.values, a.width);
-    if (result.selected_vertex) result.selected_vertex = spread(seams, *result.selected_vertex);
+    if (result.quality) result.quality = at(seams.joined, *result.quality);
+    for (Attribute& a : result.attributes) a.values = at(seams.joined, a.values, a.width);
+    if (result.selected_vertex) result.selected_vertex = at(seams.joined, *result.selected_vertex);
     result.report.say(std::to_string(layer.mesh.positions.size() - joined.mesh.positions.size()) +
                       " vertices along seams were taken for one with those at the same place.");
     return result;
