@@ -1,8 +1,8 @@
 #include "filters/across_seams.h"
 
 #include "filters/original.h"
+#include "filters/reopened.h"
 #include "measure/measure.h"
-#include "mesh/seams.h"
 
 #include <algorithm>
 #include <utility>
@@ -62,45 +62,69 @@ private:
     std::shared_ptr<const Original> own_;
 };
 
-/// The mean over the vertices, which the closed layer has fewer of.
-Report with_mean_of_all(const Report& of_closed, const Positions& before, const Positions& after) {
+/// Where the vertices of the layer are after the filter; null if it does not say so of all.
+const Positions* places_after(const Layer& layer, const Result& result) {
+    if (result.positions) return &*result.positions;
+    const bool all =
+        result.layer && result.layer->positions && result.layer->positions->size() == layer.mesh.positions.size();
+    return all ? &*result.layer->positions : nullptr;
+}
+
+/// The report on the closed layer as one on the layer itself, which has more vertices.
+Report with_all_vertices(const Layer& layer, std::size_t closed, const Result& result) {
     Report out;
-    for (const std::string& line : of_closed.lines()) out.say(line);
-    for (const Report::Entry& e : of_closed.entries()) {
-        const bool mean = e.key == "rms_displacement";
-        out.add(e.key, mean ? Report::Value(displacement(before, after).rms) : e.value, e.unit);
+    for (const std::string& line : result.report.lines()) out.say(line);
+    const Positions* const after = places_after(layer, result);
+    const auto more = static_cast<int>(layer.mesh.positions.size() - closed);
+    for (Report::Entry e : result.report.entries()) {
+        if (e.key == "rms_displacement" && after) e.value = displacement(layer.mesh.positions, *after).rms;
+        if (e.key == "duplicate_vertices") e.value = std::get<int>(e.value) + more;
+        if (e.key == "vertices" && result.layer) e.value = static_cast<int>(result.layer->source_vertex.size());
+        out.add(e.key, e.value, e.unit);
     }
+    out.say(std::to_string(more) + " vertices along seams were taken for one with those at the same place.");
+    return out;
+}
+
+std::shared_ptr<const ClosedLayer> closed_by(JoinedVertices seams, const Layer& layer) {
+    if (seams.first.empty()) return nullptr;
+    auto out = std::make_shared<ClosedLayer>();
+    out->layer = closed(seams, layer);
+    out->seams = std::move(seams);
     return out;
 }
 
 }  // namespace
 
-std::optional<Layer> closed_layer(const Layer& layer) {
-    const JoinedVertices seams = join_seams(layer.mesh);
-    if (seams.first.empty()) return std::nullopt;
-    return closed(seams, layer);
+std::shared_ptr<const ClosedLayer> close_seams(const Layer& layer) { return closed_by(join_seams(layer.mesh), layer); }
+
+std::shared_ptr<const ClosedLayer> open_where_values_differ(const Layer& layer,
+                                                            const std::shared_ptr<const ClosedLayer>& closed,
+                                                            const std::vector<std::size_t>& attributes) {
+    if (!closed) return nullptr;
+    JoinedVertices alike = join_seams_where_alike(layer, closed->seams, attributes);
+    return alike.first.size() == closed->seams.first.size() ? closed : closed_by(std::move(alike), layer);
 }
 
-Result across_seams(const Layer& layer, Session& session, const std::function<Result(const Layer&)>& filter) {
-    const JoinedVertices seams = join_seams(layer.mesh);
-    if (seams.first.empty()) return filter(layer);
-    const Layer joined = closed(seams, layer);
+Result across_seams(const Layer& layer, const ClosedLayer* closed, Session& session,
+                    const std::function<Result(const Layer&)>& filter) {
+    if (!closed) return filter(layer);
+    const JoinedVertices& seams = closed->seams;
     Result result = [&] {
-        const OwnOriginal meanwhile(session, closed_original(seams, layer, joined, session.original));
-        return filter(joined);
+        const OwnOriginal meanwhile(session, closed_original(seams, layer, closed->layer, session.original));
+        return filter(closed->layer);
     }();
     if (result.positions) {
         Positions all = at(seams.joined, *result.positions);
         for (std::size_t v = 0; v < all.size(); ++v)  // 0 and -0 are one place
             if (all[v] == layer.mesh.positions[v]) all[v] = layer.mesh.positions[v];
-        result.report = with_mean_of_all(result.report, layer.mesh.positions, all);
         result.positions = std::move(all);
     }
     if (result.quality) result.quality = at(seams.joined, *result.quality);
     for (Attribute& a : result.attributes) a.values = at(seams.joined, a.values, a.width);
     if (result.selected_vertex) result.selected_vertex = at(seams.joined, *result.selected_vertex);
-    result.report.say(std::to_string(layer.mesh.positions.size() - joined.mesh.positions.size()) +
-                      " vertices along seams were taken for one with those at the same place.");
+    if (result.layer) result.layer = reopened(layer, *closed, std::move(*result.layer));
+    result.report = with_all_vertices(layer, closed->layer.mesh.positions.size(), result);
     return result;
 }
 

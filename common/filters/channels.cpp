@@ -124,23 +124,28 @@ AttributeChoice default_choice(const Layer* layer) {
     return choice;
 }
 
-std::vector<Channels> vertex_channels(const Layer& layer, const AttributeChoice& choice, bool linear_light) {
-    std::vector<Channels> all;
+std::vector<std::size_t> chosen_attributes(const Layer& layer, const AttributeChoice& choice) {
+    std::vector<std::size_t> all;
     const auto take = [&](bool wanted, AttributeKind kind, const char* missing) {
         if (!wanted) return;
         std::size_t i = 0;
         while (i < layer.attributes.size() && layer.attributes[i].kind != kind) ++i;
         if (i == layer.attributes.size()) throw InputError(std::string(parameter_of(kind)) + ": " + missing);
-        all.push_back(channels_of(layer, i, linear_light));
+        all.push_back(i);
     };
     take(choice.color, AttributeKind::color, "the mesh has no vertex colours");
     take(choice.quality, AttributeKind::quality, "the mesh has no vertex quality");
     take(choice.texcoord, AttributeKind::texcoord, "the mesh has no vertex texture coordinates");
     if (choice.custom)
-        for (const std::size_t i : chosen_customs(layer, choice.custom_names))
-            all.push_back(channels_of(layer, i, linear_light));
+        for (const std::size_t i : chosen_customs(layer, choice.custom_names)) all.push_back(i);
     if (all.empty() && !choice.wedge_texcoord)
         throw InputError("no attribute is chosen: turn on color, quality or another one");
+    return all;
+}
+
+std::vector<Channels> vertex_channels(const Layer& layer, const AttributeChoice& choice, bool linear_light) {
+    std::vector<Channels> all;
+    for (const std::size_t i : chosen_attributes(layer, choice)) all.push_back(channels_of(layer, i, linear_light));
     return all;
 }
 

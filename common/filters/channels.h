@@ -22,6 +22,10 @@ struct AttributeChoice {
 /// The first of color, quality, wedge_texcoord, texcoord and custom that the layer has; color if it has none of them.
 AttributeChoice default_choice(const Layer* layer);
 
+/// The vertex attributes chosen, as indices into Layer::attributes.
+/// @throws InputError  naming the parameter if nothing is chosen or the layer lacks what is
+std::vector<std::size_t> chosen_attributes(const Layer& layer, const AttributeChoice& choice);
+
 /// One attribute of the vertices, ready for a transform.
 struct Channels {
     std::string label;          ///< the parameter that asked for it, and the head of its keys in a report

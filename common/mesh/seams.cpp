@@ -80,9 +80,9 @@ bool folds_back(const Mesh& mesh, Index f, Index g) {
     return normal(f).dot(normal(g)) < back;
 }
 
-}  // namespace
-
-JoinedVertices join_seams(const Mesh& mesh) {
+/// @param alike  bool(Index, Index): whether two vertices may become one
+template <class Alike>
+JoinedVertices joined(const Mesh& mesh, const Alike& alike) {
     const std::vector<Index> place = shared_places(mesh);
     if (place.empty()) return {};
     const std::vector<Side> sides = sides_of(mesh, place);
@@ -93,6 +93,7 @@ JoinedVertices join_seams(const Mesh& mesh) {
         if (end - i != 2) continue;
         const Side &a = sides[i], &b = sides[i + 1];
         if (a.up == b.up || (a.from == b.to && a.to == b.from) || folds_back(mesh, a.face, b.face)) continue;
+        if (!alike(a.from, b.to) || !alike(a.to, b.from)) continue;
         sets.join(a.from, b.to), sets.join(a.to, b.from);
         any = true;
     }
@@ -109,6 +110,28 @@ JoinedVertices join_seams(const Mesh& mesh) {
         out.joined[v] = number;
     }
     return out;
+}
+
+}  // namespace
+
+JoinedVertices join_seams(const Mesh& mesh) {
+    return joined(mesh, [](Index, Index) { return true; });
+}
+
+JoinedVertices join_seams_where_alike(const Layer& layer, const JoinedVertices& seams,
+                                      const std::vector<std::size_t>& attributes) {
+    const auto alike = [&](Index a, Index b) {
+        return std::all_of(attributes.begin(), attributes.end(), [&](std::size_t i) {
+            const Attribute& of = layer.attributes[i];
+            const double* const values = of.values.data();
+            return std::equal(values + a * std::size_t(of.width), values + (a + 1) * std::size_t(of.width),
+                              values + b * std::size_t(of.width));
+        });
+    };
+    bool all = true;
+    for (std::size_t v = 0; v < seams.joined.size() && all; ++v)
+        all = alike(static_cast<Index>(v), seams.first[seams.joined[v]]);
+    return all ? seams : joined(layer.mesh, alike);
 }
 
 }  // namespace multires

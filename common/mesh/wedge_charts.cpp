@@ -59,6 +59,14 @@ const Wedge& WedgeCharts::wedge(Index vertex, Index face, int k) const {
     return best ? *best : own;
 }
 
+FacePair::FacePair(const Face& of_level, const Face& of_input) : now(of_level), then(of_input) {
+    int best = -1;
+    for (int t = 0; t < 3; ++t) {
+        const int same = (now[0] == then[t]) + (now[1] == then[(1 + t) % 3]) + (now[2] == then[(2 + t) % 3]);
+        if (same > best) best = same, turn = t;
+    }
+}
+
 CutMesh cut_along_seams(const Mesh& mesh, const std::vector<Wedge>& wedges) {
     const Index vertices = static_cast<Index>(mesh.positions.size());
     const Buckets<Index> around = corners_by_wedge(vertices, mesh.faces, wedges);

@@ -28,6 +28,17 @@ private:
     std::vector<Index> chart_;    // #F
 };
 
+/// A face of a level beside the face of the input that it comes from: corner k of the first took the place of corner
+/// (k + turn) mod 3 of the second, with the turn that leaves most corners where they were.
+struct FacePair {
+    Face now, then;  ///< vertices of the input
+    int turn = 0;
+
+    FacePair(const Face& of_level, const Face& of_input);
+    int place(int k) const { return (k + turn) % 3; }
+    bool moved(int k) const { return now[k] != then[place(k)]; }
+};
+
 /// A mesh cut open along the seams of its texture atlas, so that every vertex has one texture coordinate: corners that
 /// share a vertex and a wedge share a node.
 struct CutMesh {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "mesh/seams.h"
 #include "mesh/wedge_charts.h"
 #include "vcg/layer.h"
 
@@ -11,10 +12,11 @@ namespace multires {
 ///
 /// All components that `source` has are enabled and copied by source_vertex and source_face, selections and texture
 /// names included; so are the custom attributes of the types listed in CustomTypes. Faux bits stay on edges between
-/// the vertices they were between, border bits are cleared, wedge texture coordinates follow WedgeCharts. The custom
-/// attribute "source_vertex" holds for every vertex its index in the layer: in the mesh's scalar type, which hosts
-/// can show and save, or as int if a float cannot count that far. DerivedMesh::attributes take the place of the
-/// source's. Box and normals are the caller's to update, as is what a class derived from vcg::tri::TriMesh adds.
+/// the vertices they were between, border bits are cleared, wedge texture coordinates follow WedgeCharts; vertices
+/// along seams (mesh/seams.h) count as one for both. The custom attribute "source_vertex" holds for every vertex its
+/// index in the layer: in the mesh's scalar type, which hosts can show and save, or as int if a float cannot count that
+/// far. DerivedMesh::attributes take the place of the source's. Box and normals are the caller's to update, as is what
+/// a class derived from vcg::tri::TriMesh adds.
 /// @return names of the custom attributes that could not be copied
 /// @throws std::invalid_argument  if `target` is not empty or `derived` has indices out of range or arrays of
 ///                                wrong size; `target` is unchanged then, as it is after
@@ -87,35 +89,23 @@ void build_vertices(M& target, const M& source, const VcgLayer& flat, const Deri
     }
 }
 
-/// A face of a derived mesh beside the one it comes from: corner k of the first took the place of corner
-/// (k + turn) mod 3 of the second, with the turn that leaves most corners where they were.
-struct FacePair {
-    Face now;  ///< indices into the layer's vertices
-    Face then;
-    int turn = 0;
-
-    FacePair(const DerivedMesh& derived, const Mesh& mesh, std::size_t face)
-        : then(mesh.faces[derived.source_face[face]]) {
-        for (int k = 0; k < 3; ++k) now[k] = derived.source_vertex[derived.faces[face][k]];
-        int best = -1;
-        for (int t = 0; t < 3; ++t) {
-            const int same = (now[0] == then[t]) + (now[1] == then[(1 + t) % 3]) + (now[2] == then[(2 + t) % 3]);
-            if (same > best) best = same, turn = t;
-        }
-    }
-    int place(int k) const { return (k + turn) % 3; }
-    bool moved(int k) const { return now[k] != then[place(k)]; }
-};
+/// A face of a derived mesh and the one it comes from, in vertices of the mesh with its seams closed.
+inline FacePair pair_of(const DerivedMesh& derived, const Mesh& mesh, const JoinedVertices& seams, std::size_t face) {
+    Face now;
+    for (int k = 0; k < 3; ++k) now[k] = derived.source_vertex[derived.faces[face][k]];
+    return {seams.of(now), seams.of(mesh.faces[derived.source_face[face]])};
+}
 
 template <class M>
-void build_faces(M& target, const M& source, const VcgLayer& flat, const DerivedMesh& derived) {
+void build_faces(M& target, const M& source, const VcgLayer& flat, const DerivedMesh& derived,
+                 const JoinedVertices& seams) {
     vcg::tri::Allocator<M>::AddFaces(target, derived.faces.size());
     for (std::size_t i = 0; i < derived.faces.size(); ++i) {
         auto& f = target.face[i];
         const auto& original = source.face[flat.host_face[derived.source_face[i]]];
         f.ImportData(original);
         f.ClearB(0), f.ClearB(1), f.ClearB(2);
-        const FacePair pair(derived, flat.layer.mesh, i);
+        const FacePair pair = pair_of(derived, flat.layer.mesh, seams, i);
         for (int k = 0; k < 3; ++k) {
             f.V(k) = &target.vert[derived.faces[i][k]];
             const bool kept = !pair.moved(k) && !pair.moved((k + 1) % 3);
@@ -128,13 +118,15 @@ void build_faces(M& target, const M& source, const VcgLayer& flat, const Derived
 }
 
 template <class M>
-void build_wedges(M& target, const M& source, const VcgLayer& flat, const DerivedMesh& derived) {
+void build_wedges(M& target, const M& source, const VcgLayer& flat, const DerivedMesh& derived,
+                  const JoinedVertices& seams) {
     if (!vcg::tri::HasPerWedgeTexCoord(source)) return;
     const Mesh& mesh = flat.layer.mesh;
-    const WedgeCharts charts(static_cast<Index>(mesh.positions.size()), mesh.faces,
-                             gather_wedges(source, flat.host_face));
+    Faces closed = mesh.faces;
+    for (Face& f : closed) f = seams.of(f);
+    const WedgeCharts charts(static_cast<Index>(mesh.positions.size()), closed, gather_wedges(source, flat.host_face));
     for (std::size_t i = 0; i < derived.faces.size(); ++i) {
-        const FacePair pair(derived, mesh, i);
+        const FacePair pair = pair_of(derived, mesh, seams, i);
         const auto& original = source.face[flat.host_face[derived.source_face[i]]];
         for (int k = 0; k < 3; ++k) {
             auto& t = target.face[i].WT(k);
@@ -197,8 +189,9 @@ std::vector<std::string> build_derived(M& target, const M& source, const VcgLaye
 
     vcg_detail::enable_components(target, source);
     vcg_detail::build_vertices(target, source, flat, derived);
-    vcg_detail::build_faces(target, source, flat, derived);
-    vcg_detail::build_wedges(target, source, flat, derived);
+    const JoinedVertices seams = join_seams(flat.layer.mesh);
+    vcg_detail::build_faces(target, source, flat, derived, seams);
+    vcg_detail::build_wedges(target, source, flat, derived, seams);
     target.textures = source.textures;
     target.normalmaps = source.normalmaps;
     std::vector<std::string> left_out = vcg_detail::build_customs(target, source, flat, derived);

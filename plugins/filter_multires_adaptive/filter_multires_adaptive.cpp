@@ -100,7 +100,7 @@ void bind_adaptive(Parameters& p, AdaptiveOptions& o) {
     bind_features(p, o.features, o.feature_angle);
 }
 
-constexpr std::uint32_t reads = vertex_quality | vertex_color | vertex_texcoord | wedge_texcoord;
+constexpr std::uint32_t reads = vertex_attributes | wedge_texcoord;
 
 const Returns adaptive_returns{
     {"faces", Type::integer, "", "Faces of the new layer."},
@@ -130,7 +130,7 @@ const Plugin& table() {
                         "threshold can also be found for a number of faces or vertices or an error bound. The custom "
                         "vertex attribute <i>source_vertex</i> holds the index of each vertex in the input.<br>") +
                         cite_roy,
-                    MenuClass::remeshing, faces, reads, new_layer, adaptive_returns},
+                    MenuClass::remeshing, faces | closed_seams, reads, new_layer, adaptive_returns},
                    adaptive_defaults, bind_adaptive, adaptive_reconstruction),
         }};
     return plugin;

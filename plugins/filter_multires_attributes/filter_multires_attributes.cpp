@@ -135,8 +135,7 @@ void bind_texcoord(Parameters& p, TexcoordOptions& o) {
     bind_pyramid(p, o.pyramid);
 }
 
-constexpr std::uint32_t everything =
-    vertex_color | vertex_quality | vertex_texcoord | wedge_texcoord | custom_attributes;
+constexpr std::uint32_t everything = vertex_attributes | wedge_texcoord;
 
 const Returns relaxation_returns{
     {"kept_vertices", Type::integer, "", "Vertices whose values were kept: corners, or without neighbours.", false},
@@ -164,20 +163,21 @@ const Plugin& table() {
                              "from the geometry, which itself stays as it is. Colours are rounded once, at the end."
                              "<br>") +
                      cite_roy,
-                 MenuClass::smoothing, faces, everything, everything, relaxation_returns + attribute_returns},
+                 MenuClass::smoothing, faces | closed_seams, everything, everything,
+                 relaxation_returns + attribute_returns},
                 relaxation_defaults, bind_relaxation, relax_attributes),
             filter({"Multiresolution: Filter Attributes by Band", "apply_attributes_multires_band",
                     std::string("Low pass, stop band or enhancement of vertex colour or quality by scale, through the "
                                 "pyramid of the surface. The geometry stays as it is.<br>") +
                         cite_roy + cite_guskov,
-                    MenuClass::smoothing, faces, vertex_color | vertex_quality, vertex_color | vertex_quality,
-                    band_returns + attribute_returns},
+                    MenuClass::smoothing, faces | closed_seams, vertex_color | vertex_quality,
+                    vertex_color | vertex_quality, band_returns + attribute_returns},
                    band_defaults, bind_attribute_band, run_band),
             filter({"Multiresolution: Filter Custom Attributes by Band", "apply_attributes_multires_band_custom",
                     std::string("Low pass, stop band or enhancement of custom scalars and points of the vertices by "
                                 "scale, through the pyramid of the surface. The geometry stays as it is.<br>") +
                         cite_roy + cite_guskov,
-                    MenuClass::smoothing, faces, vertex_quality | custom_attributes, custom_attributes,
+                    MenuClass::smoothing, faces | closed_seams, vertex_quality | custom_attributes, custom_attributes,
                     band_returns + attribute_returns},
                    custom_band_defaults, bind_custom_band, run_band),
             filter({"Multiresolution: Generate Texture Coordinates", "generate_multires_texcoord",
@@ -187,8 +187,8 @@ const Plugin& table() {
                         "is. Makes vertex and wedge texture coordinates; wedges go on beyond 1 where a face "
                         "crosses the seam.<br>") +
                         cite_guskov,
-                    MenuClass::texture, faces, vertex_texcoord | wedge_texcoord, vertex_texcoord | wedge_texcoord,
-                    texcoord_returns + pyramid_returns},
+                    MenuClass::texture, faces | closed_seams, vertex_texcoord | wedge_texcoord,
+                    vertex_texcoord | wedge_texcoord, texcoord_returns + pyramid_returns},
                    texcoord_defaults, bind_texcoord, generate_texcoord),
         }};
     return plugin;

@@ -202,7 +202,7 @@ const Plugin& table() {
                              "algorithms\"</b>, Physica D 1992.<br>See <i>Ramani, Blu, Unser</i>, "
                              "<b>\"Monte-Carlo SURE\"</b>, IEEE Transactions on Image Processing 2008.<br>") +
                      cite_roy,
-                 MenuClass::smoothing, faces, vertex_color | vertex_quality | custom_attributes,
+                 MenuClass::smoothing, faces | closed_seams, vertex_color | vertex_quality | custom_attributes,
                  vertex_color | vertex_quality | custom_attributes,
                  attribute_returns + attribute_noise_returns + sometimes(pyramid_returns)},
                 attribute_defaults, bind_attributes, denoise_attributes),

@@ -266,7 +266,7 @@ const Plugin& table() {
                              "them: those that the pyramid keeps longest stay, the others go where the bending energy "
                              "is least. To be edited and followed, or to take detail from.<br>") +
                      cite_vorsatz,
-                 MenuClass::layer, faces, none, new_layer, base_returns + pyramid_returns},
+                 MenuClass::layer, faces | closed_seams, none, new_layer, base_returns + pyramid_returns},
                 base_defaults, bind_base, generate_base),
             filter({"Multiresolution: Multiband Edit", "apply_coord_multires_bands",
                     std::string("Splits the surface into a smooth base and bands of detail over one another, and puts "

@@ -169,7 +169,7 @@ const Plugin& table() {
                              "length) and root mean square of the details; the largest error of the reconstruction; "
                              "and what is unusual in the mesh.<br>") +
                      cite_guskov + cite_roy,
-                 MenuClass::measure, faces, none, none, compute_returns + pyramid_returns},
+                 MenuClass::measure, faces | closed_seams, none, none, compute_returns + pyramid_returns},
                 compute_defaults, bind_compute, compute_pyramid),
             filter({"Multiresolution: Level as New Layer", "generate_multires_level",
                     std::string(
@@ -179,7 +179,8 @@ const Plugin& table() {
                         "<i>source_vertex</i> holds the index of "
                         "each in the input.<br>") +
                         cite_roy,
-                    MenuClass::layer, faces, none, new_layer, level_returns + pyramid_returns},
+                    MenuClass::layer, faces | closed_seams, vertex_attributes, new_layer,
+                    level_returns + pyramid_returns},
                    level_defaults, bind_level, run_level),
             filter(
                 {"Multiresolution: Detail to Vertex Quality", "compute_scalar_multires_detail_per_vertex",

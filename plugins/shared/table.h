@@ -3,6 +3,7 @@
 #include "shared/parameters.h"
 
 #include "filters/across_seams.h"
+#include "filters/channels.h"
 #include "filters/filter.h"
 #include "filters/result_hash.h"
 
@@ -11,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 /// The tables that declare filters. A filter is one row: its names, its info, what it needs and changes, its
@@ -31,6 +33,7 @@ enum Parts : std::uint32_t {
     vertex_selection = 256,
     edge_selection = 512,
     closed_seams = 1024,  ///< pre: vertices along seams count as one (filters/across_seams.h), not that there are any
+    vertex_attributes = vertex_quality | vertex_color | vertex_texcoord | custom_attributes,
 };
 
 /// Where the filter appears in the host's menu.
@@ -63,9 +66,25 @@ struct Filter {
     std::uint32_t changes;               ///< Parts the filter may change
     std::vector<Returned> returns = {};  ///< what the report holds
 
-    /// Begins a call; defaults are derived from the layer (null: there is no mesh, fixed ones). Made by filter() below.
+    /// Begins a call; defaults are derived from the layer (null: there is no mesh, fixed ones). If the call is run with
+    /// this very layer, it has to be as it was. Made by filter() below.
     std::function<Call(const Layer*)> call = nullptr;
 };
+
+template <class Options, class = void>
+struct HasChoice : std::false_type {};
+template <class Options>
+struct HasChoice<Options, std::void_t<decltype(Options::what)>> : std::true_type {};
+
+/// The attributes that a filter changes: seams stay open where the two sides have different values of these. Options
+/// without an AttributeChoice may have a function of this name in their own header.
+template <class Options>
+std::vector<std::size_t> kept_apart(const Layer& layer, const Options& options) {
+    if constexpr (HasChoice<Options>::value)
+        return chosen_attributes(layer, options.what);
+    else
+        return {};
+}
 
 /// Completes a row: `defaults` derives an options struct from a layer, `bind` lists its fields as parameters, `apply`
 /// does it: Result apply(layer, options, session), where layer is a Layer, or Inputs for a filter of several layers.
@@ -75,18 +94,21 @@ Filter filter(Filter row, Options (*defaults)(const Layer*), void (*bind)(Parame
               Result (*apply)(const Given&, const Options&, Session&)) {
     const bool changes = row.changes != none, seams = (row.needs & closed_seams) != 0;
     row.call = [=](const Layer* layer) {
-        const std::optional<Layer> closed = seams && layer ? closed_layer(*layer) : std::nullopt;
-        const auto options = std::make_shared<Options>(defaults(closed ? &*closed : layer));
+        const auto closed = seams && layer ? close_seams(*layer) : nullptr;
+        const auto options = std::make_shared<Options>(defaults(closed ? &closed->layer : layer));
         Call call;
         bind(call.parameters, *options);
         call.run = [=](const Inputs& inputs, Session& session) {
             Result result = [&] {
                 if constexpr (std::is_same_v<Given, Inputs>)
                     return apply(inputs, *options, session);
-                else if (seams)
-                    return across_seams(inputs.current, session,
+                else if (seams) {
+                    const Layer& current = inputs.current;
+                    auto found = &current == layer ? closed : close_seams(current);
+                    if (found) found = open_where_values_differ(current, found, kept_apart(current, *options));
+                    return across_seams(current, found.get(), session,
                                         [&](const Layer& layer) { return apply(layer, *options, session); });
-                else
+                } else
                     return apply(inputs.current, *options, session);
             }();
             if (changes) result.report.add("result_hash", result_hash(result));

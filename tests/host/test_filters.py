@@ -455,6 +455,50 @@ def test_wedge_texture_coordinates_of_a_level_stay_near_the_surface():
     assert exact.mean() > 0.9
 
 
+def cut_in_two(mesh):
+    """The faces of a sphere in two charts, each with vertices of its own."""
+    v, f = mesh.vertex_matrix(), mesh.face_matrix()
+    other = v[f, 0].mean(axis=1) > 0
+    twice = np.intersect1d(f[other], f[~other])
+    copy = np.arange(len(v))
+    copy[twice] = len(v) + np.arange(len(twice))
+    return np.concatenate([v, v[twice]]), np.where(other[:, None], copy[f], f), other
+
+
+def test_a_level_of_a_mesh_cut_along_a_seam_is_that_of_the_whole():
+    ms = new_document()
+    ms.create_sphere(subdiv=4)
+    whole = ms.current_mesh()
+    vertices, faces, other = cut_in_two(whole)
+    uv = whole.vertex_matrix()[whole.face_matrix()][:, :, 1:] + 10 * other[:, None, None]
+    wedges = {"w_tex_coords_matrix": uv.reshape(-1, 2)}
+    levels = []
+    for v, f in ((whole.vertex_matrix(), whole.face_matrix()), (vertices, faces)):
+        ms.add_mesh(pymeshlab.Mesh(vertex_matrix=v, face_matrix=f, **wedges))
+        ms.apply_filter(LEVEL)
+        level = ms.current_mesh()
+        corners = level.vertex_matrix()[level.face_matrix()]
+        levels.append((level.vertex_number(), corners, level.wedge_tex_coord_matrix()))
+    assert levels[0][0] < 0.5 * whole.vertex_number()
+    for of_whole, of_cut in zip(*levels):
+        np.testing.assert_array_equal(of_cut, of_whole)
+
+
+def test_values_at_a_level_of_a_cut_mesh_stay_in_their_chart():
+    ms = new_document()
+    ms.create_sphere(subdiv=4)
+    vertices, faces, other = cut_in_two(ms.current_mesh())
+    chart = np.zeros(len(vertices))
+    chart[faces[other]] = 1
+    ms.add_mesh(pymeshlab.Mesh(vertex_matrix=vertices, face_matrix=faces, v_scalar_array=chart))
+    report = ms.apply_filter(LEVEL)
+    level = ms.current_mesh()
+    assert report["vertices"] == level.vertex_number()
+    assert (np.ptp(level.vertex_scalar_array()[level.face_matrix()], axis=1) == 0).all(), "no face has both"
+    assert ms.apply_filter(PYRAMID)["boundary_edges"] == 0, "closed, though there are two charts"
+    assert ms.get_topological_measures()["boundary_edges"] > 0
+
+
 # ---- the kept pyramid ------------------------------------------------------------------------------------------------
 
 

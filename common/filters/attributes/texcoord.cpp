@@ -216,4 +216,12 @@ Result generate_texcoord(const Layer& layer, const TexcoordOptions& options, Ses
     return result;
 }
 
+std::vector<std::size_t> kept_apart(const Layer& layer, const TexcoordOptions& options) {
+    std::vector<std::size_t> kept;
+    for (std::size_t i = 0; i < layer.attributes.size(); ++i)
+        if (options.projection == Projection::existing && layer.attributes[i].kind == AttributeKind::texcoord)
+            kept.push_back(i);
+    return kept;
+}
+
 }  // namespace multires

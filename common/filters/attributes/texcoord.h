@@ -42,4 +42,7 @@ struct TexcoordOptions {
 /// Cost: building the pyramid, unless it is kept; then O(V + F).
 Result generate_texcoord(const Layer& layer, const TexcoordOptions& options, Session& session);
 
+/// The texture coordinates that exist, if they are continued (see open_where_values_differ()).
+std::vector<std::size_t> kept_apart(const Layer& layer, const TexcoordOptions& options);
+
 }  // namespace multires
