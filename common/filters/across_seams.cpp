@@ -5,6 +5,9 @@
 #include "measure/measure.h"
 
 #include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
 #include <utility>
 
 namespace multires {
@@ -62,6 +65,40 @@ private:
     std::shared_ptr<const Original> own_;
 };
 
+/// The layers of a call, with the seams of the current one closed in all of them.
+class ClosedInputs {
+public:
+    ClosedInputs(const Inputs& inputs, const ClosedLayer& closed) : closed_(closed), inputs_{closed.layer} {
+        found_[&inputs.current] = &closed.layer;
+        for (const Layer* other : inputs.others) {
+            const Layer*& found = found_[other];
+            if (!found) found = closed_one(*other, inputs.current);
+            inputs_.others.push_back(found);
+        }
+    }
+    const Inputs& inputs() const { return inputs_; }
+
+private:
+    const Layer* closed_one(const Layer& other, const Layer& current) {
+        if (other.mesh.positions.size() == current.mesh.positions.size() && other.mesh.faces == current.mesh.faces)
+            return &made_.emplace_back(closed(closed_.seams, other));
+        const auto is_source = [](const Attribute& a) { return a.name == source_vertex_name && a.width == 1; };
+        if (std::none_of(other.attributes.begin(), other.attributes.end(), is_source)) return &other;
+        Layer& out = made_.emplace_back(other);
+        for (Attribute& a : out.attributes)
+            if (is_source(a))
+                for (double& v : a.values)
+                    if (v >= 0 && v < static_cast<double>(closed_.seams.joined.size()) && v == std::floor(v))
+                        v = closed_.seams.joined[static_cast<std::size_t>(v)];
+        return &out;
+    }
+
+    const ClosedLayer& closed_;
+    std::deque<Layer> made_;
+    std::map<const Layer*, const Layer*> found_;  ///< a layer that is named twice is one
+    Inputs inputs_;
+};
+
 /// Where the vertices of the layer are after the filter; null if it does not say so of all.
 const Positions* places_after(const Layer& layer, const Result& result) {
     if (result.positions) return &*result.positions;
@@ -106,13 +143,14 @@ std::shared_ptr<const ClosedLayer> open_where_values_differ(const Layer& layer,
     return alike.first.size() == closed->seams.first.size() ? closed : closed_by(std::move(alike), layer);
 }
 
-Result across_seams(const Layer& layer, const ClosedLayer* closed, Session& session,
-                    const std::function<Result(const Layer&)>& filter) {
-    if (!closed) return filter(layer);
+Result across_seams(const Inputs& inputs, const ClosedLayer* closed, Session& session,
+                    const std::function<Result(const Inputs&)>& filter) {
+    if (!closed) return filter(inputs);
+    const Layer& layer = inputs.current;
     const JoinedVertices& seams = closed->seams;
     Result result = [&] {
         const OwnOriginal meanwhile(session, closed_original(seams, layer, closed->layer, session.original));
-        return filter(closed->layer);
+        return filter(ClosedInputs(inputs, *closed).inputs());
     }();
     if (result.positions) {
         Positions all = at(seams.joined, *result.positions);

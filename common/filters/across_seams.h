@@ -29,12 +29,14 @@ std::shared_ptr<const ClosedLayer> open_where_values_differ(const Layer& layer,
                                                             const std::vector<std::size_t>& attributes);
 
 /// Runs a filter on the closed layer; vertices that were one get the same result. Without one it is the filter alone.
+/// Of other layers, those with the very faces of the current one are closed as it is, and `source_vertex` of its levels
+/// names vertices of the closed layer.
 ///
 /// A new layer has vertices of a seam once where all attributes read are the same at them. Where they differ, there is
 /// one for each value that its faces have, chosen as wedges are (WedgeCharts); all of them are at one place. If the
 /// filter removes no vertex, none is joined.
-/// @param closed  of `layer`, or null
-Result across_seams(const Layer& layer, const ClosedLayer* closed, Session& session,
-                    const std::function<Result(const Layer&)>& filter);
+/// @param closed  of the current layer, or null
+Result across_seams(const Inputs& inputs, const ClosedLayer* closed, Session& session,
+                    const std::function<Result(const Inputs&)>& filter);
 
 }  // namespace multires

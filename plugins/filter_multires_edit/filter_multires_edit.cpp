@@ -242,7 +242,7 @@ const Plugin& table() {
                              "with it and keeps its detail, colours and texture. An edit that changes nothing leaves "
                              "every vertex exactly where it is.<br>") +
                      cite_guskov + cite_vorsatz,
-                 MenuClass::remeshing, faces, vertex_quality, vertex_positions,
+                 MenuClass::remeshing, faces | closed_seams, vertex_quality, vertex_positions,
                  transfer_edit_returns + sometimes(bands_returns + base_point_returns) + sometimes(pyramid_returns) +
                      change_returns},
                 transfer_edit_defaults, bind_transfer_edit, transfer_edit),
@@ -283,7 +283,8 @@ const Plugin& table() {
                              "smooth or another shape nearby. Or stores it as a custom attribute that can be applied "
                              "later, to the same layer in another shape, as often and as strongly as wanted.<br>") +
                      cite_vorsatz,
-                 MenuClass::remeshing, faces, vertex_quality | custom_attributes, vertex_positions | custom_attributes,
+                 MenuClass::remeshing, faces | closed_seams, vertex_quality | custom_attributes,
+                 vertex_positions | custom_attributes,
                  transfer_detail_returns + sometimes(vertices_without_returns) + sometimes(pyramid_returns) +
                      sometimes(change_returns)},
                 transfer_detail_defaults, bind_transfer_detail, transfer_detail),

@@ -200,7 +200,7 @@ const Plugin& table() {
                      cite_roy +
                      "<br>See <i>B&aelig;rentzen, Aan&aelig;s</i>, <b>\"Signed Distance Computation Using the Angle "
                      "Weighted Pseudonormal\"</b>, IEEE TVCG 2005.",
-                 MenuClass::quality, faces, none, vertex_quality, difference_returns},
+                 MenuClass::quality, faces | closed_seams, none, vertex_quality, difference_returns},
                 difference_defaults, bind_difference, difference_to_layer),
         }};
     return plugin;

@@ -99,18 +99,15 @@ Filter filter(Filter row, Options (*defaults)(const Layer*), void (*bind)(Parame
         Call call;
         bind(call.parameters, *options);
         call.run = [=](const Inputs& inputs, Session& session) {
-            Result result = [&] {
+            const auto run = [&](const Inputs& all) {
                 if constexpr (std::is_same_v<Given, Inputs>)
-                    return apply(inputs, *options, session);
-                else if (seams) {
-                    const Layer& current = inputs.current;
-                    auto found = &current == layer ? closed : close_seams(current);
-                    if (found) found = open_where_values_differ(current, found, kept_apart(current, *options));
-                    return across_seams(current, found.get(), session,
-                                        [&](const Layer& layer) { return apply(layer, *options, session); });
-                } else
-                    return apply(inputs.current, *options, session);
-            }();
+                    return apply(all, *options, session);
+                else
+                    return apply(all.current, *options, session);
+            };
+            auto found = !seams ? nullptr : &inputs.current == layer ? closed : close_seams(inputs.current);
+            if (found) found = open_where_values_differ(inputs.current, found, kept_apart(inputs.current, *options));
+            Result result = across_seams(inputs, found.get(), session, run);
             if (changes) result.report.add("result_hash", result_hash(result));
             return result;
         };

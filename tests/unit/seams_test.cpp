@@ -3,6 +3,7 @@
 
 #include "all_tables.h"
 #include "attribute_fixtures.h"
+#include "filters/editing/transfer_edit.h"
 #include "filters/original.h"
 #include "filters/result_hash.h"
 #include "filters/shape/band_filters.h"
@@ -45,10 +46,17 @@ Mesh cut(const Mesh& mesh, bool (*on_other_side)(const Vec3&)) {
 
 bool right(const Vec3& p) { return p.x() > 0; }
 
+bool names_layers(const plugin::Filter& filter) {
+    const plugin::Call call = filter.call(nullptr);
+    return std::any_of(call.parameters.begin(), call.parameters.end(),
+                       [](const plugin::Parameter& p) { return std::holds_alternative<LayerRef*>(p.field); });
+}
+
+/// Filters of one layer that close seams.
 std::vector<const plugin::Filter*> closing() {
     std::vector<const plugin::Filter*> all;
     for (const plugin::Filter* f : plugin::all_filters())
-        if (f->needs & plugin::closed_seams) all.push_back(f);
+        if (f->needs & plugin::closed_seams && !names_layers(*f)) all.push_back(f);
     return all;
 }
 
@@ -59,8 +67,8 @@ const plugin::Filter& filter_named(const std::string& name) {
 }
 
 Result low_pass_across(const Layer& layer, const LowPassOptions& options, Session& session) {
-    return across_seams(layer, close_seams(layer).get(), session,
-                        [&](const Layer& l) { return low_pass(l, options, session); });
+    return across_seams({layer}, close_seams(layer).get(), session,
+                        [&](const Inputs& all) { return low_pass(all.current, options, session); });
 }
 
 Result wedges_of(const Result& result) {
@@ -281,6 +289,73 @@ TEST(Seams, OfValuesStayOpenWhereTheyJump) {
                 EXPECT_EQ(after[v], after[twin]);
             } else if (two.positions[v].y() > 0.5) {  // elsewhere the two sides meet round the end of the jump
                 EXPECT_GT(after[v] - after[twin], 40);
+            }
+        }
+    }
+}
+
+/// Bent about an axis.
+Layer bent(Layer layer) {
+    for (Vec3& p : layer.mesh.positions) p = Eigen::AngleAxisd(0.8 * p.y(), Vec3::UnitY()) * p;
+    return layer;
+}
+
+TEST(Seams, StayClosedWhenALayerFollowsItsLevel) {
+    const Mesh whole = shapes::scan(1500), two = cut(whole, right);
+    const JoinedVertices seams = join_seams(two);
+    for (const Encoding encoding : {Encoding::gradient, Encoding::frames, Encoding::phong})
+        for (const bool base : {false, true}) {
+            SCOPED_TRACE(std::to_string(static_cast<int>(encoding)) + (base ? ", base" : ", level"));
+            const auto followed = [&](const Mesh& mesh) {
+                const Layer layer = layer_of(mesh);
+                Session session;
+                const DerivedMesh made =
+                    *plugin::run(filter_named(base ? "generate_multires_base" : "generate_multires_level"), layer,
+                                 session, {{"vertices", 300}})
+                         .layer;
+                Layer level = layer_of({places(made, mesh), made.faces});
+                level.attributes = {{AttributeKind::scalar,
+                                     source_vertex_name,
+                                     1,
+                                     {made.source_vertex.begin(), made.source_vertex.end()}}};
+                const Layer edited = bent(level);
+                const plugin::Call call = filter_named("apply_coord_multires_transfer_edit").call(&layer);
+                read(call.parameters, {{"encoding", static_cast<double>(encoding)}});
+                std::size_t place = 0;
+                for (const plugin::Parameter& p : call.parameters)
+                    if (LayerRef* const* ref = std::get_if<LayerRef*>(&p.field)) (*ref)->place = place++;
+                return *call.run({layer, {&edited, base ? &level : &layer}}, session).positions;
+            };
+            const Positions expected = followed(whole), found = followed(two);
+            EXPECT_GT(largest_distance(expected, whole.positions), 0.1);
+            for (std::size_t v = 0; v < found.size(); ++v) ASSERT_EQ(found[v], expected[seams.joined[v]]);
+        }
+}
+
+TEST(Seams, StayClosedBesideOtherLayers) {
+    const Mesh whole = shapes::scan(1500), two = cut(whole, right);
+    const JoinedVertices seams = join_seams(two);
+    const Layer other = plugin::another_layer(layer_of(shapes::scan(2500)));
+    for (const auto& [name, values] : std::vector<std::pair<const char*, plugin::Given>>{
+             {"compute_scalar_multires_difference_per_vertex", {{"wavelength", 0.3}}},
+             {"transfer_coord_multires_detail", {{"gain", 1.5}}}}) {
+        SCOPED_TRACE(name);
+        const plugin::Filter& filter = filter_named(name);
+        const plugin::Given& given = values;
+        const auto run = [&](const Layer& layer) {
+            const plugin::Call call = filter.call(&layer);
+            read(call.parameters, given);
+            for (const plugin::Parameter& p : call.parameters)
+                if (LayerRef* const* ref = std::get_if<LayerRef*>(&p.field)) (*ref)->place = 0;
+            Session session;
+            return call.run({layer, {&other}}, session);
+        };
+        const Result expected = run(layer_of(whole)), found = run(layer_of(two));
+        for (std::size_t v = 0; v < two.positions.size(); ++v) {
+            if (expected.positions) {
+                ASSERT_EQ((*found.positions)[v], (*expected.positions)[seams.joined[v]]);
+            } else {
+                ASSERT_EQ((*found.quality)[v], (*expected.quality)[seams.joined[v]]);
             }
         }
     }
