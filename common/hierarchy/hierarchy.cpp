@@ -55,6 +55,35 @@ Array<Index> rows_between(const Array<Index>& place, Index begin, Index end) {
     return rows;
 }
 
+/// Room for the rings of all vertices that steps remove, with offsets.
+Rings room_for_odd(const std::vector<Step>& steps, const HierarchyOptions& options) {
+    Rings odd;
+    odd.first = steps.back().rings.rows();
+    const Index rows = steps[0].rings.rows() - odd.first;
+    odd.kind.resize(rows);
+    odd.offset.assign(rows + 1, 0);
+    for (const Step& step : steps) {
+        const Index n = step.rings.rows(), even = n - static_cast<Index>(step.parent.size());
+        parallel_for(n, [&](Index i) {
+            if (step.code[i] < 0) odd.offset[even + ~step.code[i] - odd.first + 1] = step.rings.size(i);
+        });
+    }
+    for (Index r = 0; r < rows; ++r) odd.offset[r + 1] += odd.offset[r];
+    odd.neighbor.resize(odd.offset.back());
+    if (options.flaps) odd.flap.resize(odd.neighbor.size());
+    if (!steps[0].rings.feature.empty()) odd.feature.resize(odd.neighbor.size());
+    return odd;
+}
+
+/// Rings of the places 0..coarse-1 in order of the step's vertices.
+Rings even_rings(const Rings& rings, const Array<Index>& place, Index coarse) {
+    const Array<Index> rows = rows_between(place, 0, coarse);
+    Rings even = renumbered(rings, rows, place, rings.rows());
+    even.vertices.resize(rows.size());
+    for (std::size_t r = 0; r < rows.size(); ++r) even.vertices[r] = place[rows[r]];
+    return even;
+}
+
 /// Turns steps into levels of `sets_per_level` steps, numbered so that every level is a prefix.
 Hierarchy assemble(std::vector<Step> steps, const HierarchyOptions& options) {
     Hierarchy h;
@@ -63,17 +92,18 @@ Hierarchy assemble(std::vector<Step> steps, const HierarchyOptions& options) {
     place.back() = steps.back().code;
     for (int s = count - 1; s >= 0; --s) place[s] = places_of(steps[s], place[s + 1]);
 
-    const Index n = steps[0].rings.rows();
+    const Index n = steps[0].rings.rows(), base = steps.back().rings.rows();
     h.order.resize(n);
     parallel_for(n, [&](Index i) { h.order[place[0][i]] = i; });
     h.parent.assign(n, -1);
     h.size.push_back(n);
+    h.odd = room_for_odd(steps, options);
     for (int first = 0; first < count; first += options.sets_per_level) {
         const int last = std::min(first + options.sets_per_level, count);
         Level level;
         level.fine = steps[first].rings.rows();
         level.coarse = steps[last].rings.rows();
-        level.sets.push_back(0);
+        level.odd = {level.coarse - base, level.fine - base};
         for (int s = last - 1; s >= first; --s) {  // the vertices removed last are inserted first
             Step& step = steps[s];
             const Index fine = step.rings.rows(), even = fine - static_cast<Index>(step.parent.size());
@@ -81,17 +111,11 @@ Hierarchy assemble(std::vector<Step> steps, const HierarchyOptions& options) {
             if (options.flaps) find_flaps(step.rings, s > first ? &odd : nullptr);
             for (std::size_t i = 0; i < step.parent.size(); ++i)
                 h.parent[even + static_cast<Index>(i)] = place[s][step.parent[i]];
-            append(level.odd, renumbered(step.rings, odd, place[s], even));
-            level.sets.push_back(level.odd.rows());
+            renumber_into(h.odd, even - base, step.rings, odd, place[s], even);
+            if (s > first) level.cuts.push_back(fine - base);
         }
-        level.odd.first = level.coarse;
         if (options.mean_edges) h.mean_edge.push_back(steps[first].mean_edge);
-        if (options.even_rings) {
-            const Array<Index> rows = rows_between(place[first], 0, level.coarse);
-            level.even = renumbered(steps[first].rings, rows, place[first], level.fine);
-            level.even.vertices.resize(rows.size());
-            for (std::size_t r = 0; r < rows.size(); ++r) level.even.vertices[r] = place[first][rows[r]];
-        }
+        if (options.even_rings) h.even.push_back(even_rings(steps[first].rings, place[first], level.coarse));
         h.size.push_back(level.coarse);
         h.levels.push_back(std::move(level));
         for (int s = first; s < last; ++s) steps[s] = Step(), place[s] = Array<Index>();
@@ -244,9 +268,10 @@ std::size_t bytes(const Hierarchy& h) {
     const auto of_rings = [&](const Rings& r) {
         return of(r.offset) + of(r.neighbor) + of(r.flap) + of(r.feature) + of(r.kind) + of(r.vertices);
     };
-    std::size_t sum = of(h.order) + of(h.parent) + of(h.size) + of(h.levels) + of(h.positions) + of(h.mean_edge) +
-                      of(h.lattice) + of_rings(h.base);
-    for (const Level& level : h.levels) sum += of_rings(level.odd) + of_rings(level.even) + of(level.sets);
+    std::size_t sum = of(h.order) + of(h.parent) + of(h.size) + of(h.levels) + of_rings(h.odd) + of(h.even) +
+                      of(h.positions) + of(h.mean_edge) + of(h.lattice) + of_rings(h.base);
+    for (const Level& level : h.levels) sum += of(level.cuts);
+    for (const Rings& even : h.even) sum += of_rings(even);
     return sum;
 }
 

@@ -44,27 +44,33 @@ struct HierarchyOptions {
     Split split = Split::quadric;
     int seed = 0;             ///< other than 0: costs vary at random by up to half, for another hierarchy
     bool flaps = true;        ///< store Rings::flap, for operators that need the 1-ring with flaps
-    bool even_rings = true;   ///< fill Level::even
+    bool even_rings = true;   ///< fill Hierarchy::even
     bool mean_edges = false;  ///< independent sets: fill Hierarchy::mean_edge
 };
 
-/// One level: what is needed to go between the mesh of `fine` vertices and that of `coarse` vertices.
+/// Rows begin..end-1 of some Rings.
+struct RowRange {
+    Index begin = 0, end = 0;
+    Index size() const { return end - begin; }
+};
+
+/// One level: between the mesh of `fine` vertices and that of `coarse` vertices. There may be as many levels as
+/// vertices, so what is long is in tables that all of them share.
 ///
 /// A vertex's place is its number in hierarchy order: 0..coarse-1 are even (they stay), coarse..fine-1 odd (removed).
-/// Rows hold places.
 struct Level {
     Index fine = 0, coarse = 0;
-    /// Row r: ring of the odd vertex coarse + r at the moment it is removed: all entries are smaller than coarse + r.
-    Rings odd;
-    /// Rings in the mesh of `fine` vertices of the even vertices (Rings::vertices): all of them in order of the input,
-    /// which is kind to caches where places are not; or, with one vertex per level, only those next to the odd vertex.
-    /// No rows without HierarchyOptions::even_rings.
-    Rings even;
-    /// Bounds of sets of odd rows, from 0 to odd.rows(). Entries and flaps of a row are even or belong to sets before
-    /// its own, so the rows of a set can be predicted in any order.
-    std::vector<Index> sets;
+    RowRange odd;  ///< of Hierarchy::odd: those of the places coarse..fine-1
+    /// Where the sets of odd rows begin that follow the first. Entries and flaps of a row are even or belong to sets
+    /// before its own, so the rows of a set can be predicted in any order.
+    std::vector<Index> cuts;
+
+    std::size_t sets() const { return cuts.size() + 1; }
+    RowRange set(std::size_t s) const {
+        return {s == 0 ? odd.begin : cuts[s - 1], s == cuts.size() ? odd.end : cuts[s]};
+    }
     /// True if all entries and flaps of odd rows are even.
-    bool independent() const { return sets.size() <= 2; }
+    bool independent() const { return cuts.empty(); }
 };
 
 /// Where on a triangular grid a vertex lies.
@@ -80,8 +86,15 @@ struct Hierarchy {
     Array<Index> parent;        ///< #V: place the vertex was collapsed into, smaller than its own; -1 in the base
     std::vector<Index> size;    ///< #levels+1: vertices of level k, size[0] = #V, the last is the base
     std::vector<Level> levels;  ///< levels[k] leads from size[k] to size[k+1] vertices; 0 is the finest
-    Rings base;                 ///< rings of the base's vertices (row i = place i)
-    Positions positions;        ///< #V: positions in order of places
+    /// #V - size.back(), from the coarsest level's to the finest one's: rings of vertices at the moment they are
+    /// removed, in places. All entries of a row are smaller than its own place, Rings::vertex(row). See Level::odd.
+    Rings odd;
+    /// #levels, or empty without HierarchyOptions::even_rings: rings, in the mesh of the level's `fine` vertices, of
+    /// its even vertices (Rings::vertices): all of them in order of the input, which is kind to caches where places
+    /// are not; or, with one vertex per level, only those next to the odd vertex.
+    std::vector<Rings> even;
+    Rings base;           ///< rings of the base's vertices (row i = place i)
+    Positions positions;  ///< #V: positions in order of places
     /// #levels+1: mean edge lengths of the levels' meshes, an edge on the boundary counting as any other; mesh units.
     /// Empty unless asked for.
     std::vector<double> mean_edge;

@@ -18,13 +18,12 @@ Insertion insertion_order(const Hierarchy& h, std::vector<double> importance) {
     Insertion out;
     out.key = std::move(importance);
     out.faces.assign(h.vertices(), 0);
-    for (const Level& level : h.levels)
-        for (Index r = level.odd.rows() - 1; r >= 0; --r) {  // later places depend on earlier ones
-            const double key = out.key[level.odd.vertex(r)];
-            out.faces[level.odd.vertex(r)] = level.odd.kind[r] == RingKind::closed ? 2 : 1;
-            const Index* const ring = level.odd.begin(r);
-            for (Index j = 0; j < level.odd.size(r); ++j) out.key[ring[j]] = std::max(out.key[ring[j]], key);
-        }
+    for (Index r = h.odd.rows() - 1; r >= 0; --r) {  // later places depend on earlier ones
+        const double key = out.key[h.odd.vertex(r)];
+        out.faces[h.odd.vertex(r)] = h.odd.kind[r] == RingKind::closed ? 2 : 1;
+        const Index* const ring = h.odd.begin(r);
+        for (Index j = 0; j < h.odd.size(r); ++j) out.key[ring[j]] = std::max(out.key[ring[j]], key);
+    }
     const Index base = h.size.back();
     std::fill_n(out.key.begin(), base, std::numeric_limits<double>::infinity());
     Array<std::uint64_t> falling(h.vertices());

@@ -16,9 +16,15 @@ Rings renumbered(const Rings& rings, const Array<Index>& from, const Array<Index
     out.neighbor.resize(out.offset[rows]);
     if (!rings.flap.empty()) out.flap.resize(out.offset[rows]);
     if (!rings.feature.empty()) out.feature.resize(out.offset[rows]);
-    parallel_for(rows, [&](Index r) {
-        out.kind[r] = rings.kind[from[r]];
-        const Index source = rings.offset[from[r]], size = rings.size(from[r]), to = out.offset[r];
+    renumber_into(out, 0, rings, from, place, limit);
+    return out;
+}
+
+void renumber_into(Rings& out, Index first, const Rings& rings, const Array<Index>& from, const Array<Index>& place,
+                   Index limit) {
+    parallel_for(static_cast<Index>(from.size()), [&](Index i) {
+        const Index source = rings.offset[from[i]], size = rings.size(from[i]), r = first + i, to = out.offset[r];
+        out.kind[r] = rings.kind[from[i]];
         for (Index j = 0; j < size; ++j) out.neighbor[to + j] = place[rings.neighbor[source + j]];
         if (!rings.feature.empty()) std::copy_n(rings.feature.data() + source, size, out.feature.data() + to);
         if (rings.flap.empty()) return;
@@ -29,16 +35,6 @@ Rings renumbered(const Rings& rings, const Array<Index>& from, const Array<Index
             out.flap[to + j] = place[flap] < limit ? place[flap] : out.neighbor[to + j];
         }
     });
-    return out;
-}
-
-void append(Rings& to, const Rings& more) {
-    const Index entries = to.offset.back();
-    for (Index r = 0; r < more.rows(); ++r) to.offset.push_back(entries + more.offset[r + 1]);
-    to.neighbor.insert(to.neighbor.end(), more.neighbor.begin(), more.neighbor.end());
-    to.flap.insert(to.flap.end(), more.flap.begin(), more.flap.end());
-    to.feature.insert(to.feature.end(), more.feature.begin(), more.feature.end());
-    to.kind.insert(to.kind.end(), more.kind.begin(), more.kind.end());
 }
 
 }  // namespace multires

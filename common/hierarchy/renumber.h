@@ -9,7 +9,8 @@ namespace multires {
 /// @param limit  flaps at places >= limit become none
 Rings renumbered(const Rings& rings, const Array<Index>& from, const Array<Index>& place, Index limit);
 
-/// Appends the rows of `more`; Rings::vertices is left alone.
-void append(Rings& to, const Rings& more);
+/// The same into rows first, first + 1, ... of a table that has room for them, and their offsets.
+void renumber_into(Rings& out, Index first, const Rings& rings, const Array<Index>& from, const Array<Index>& place,
+                   Index limit);
 
 }  // namespace multires

@@ -54,6 +54,8 @@ public:
             if (tick && left_ % 1024 == 0) tick(1 - left_ / whole);
         }
         if (left_ < h_.size.back()) end_level();
+        queue_ = {};  // the tables of the result take their place
+        quadric_ = {};
         number();
         return std::move(h_);
     }
@@ -182,7 +184,6 @@ private:
     void start_level() {
         cut_ = single() ? left_ - 1 : std::max(stop_, static_cast<Index>(left_ * options_.level_ratio));
         cut_ = std::min(cut_, left_ - 1);
-        odd_ = Rings();
         even_ = Rings();
         even_vertex_.clear();
         if (single() || !options_.even_rings) return;
@@ -190,31 +191,25 @@ private:
             if (alive_[i]) record(even_, i), even_vertex_.push_back(i);
     }
 
-    /// Level::sets of rows in order of insertion: each as long as no row refers to another of it.
-    static std::vector<Index> sets_of(const Rings& odd) {
-        std::vector<Index> sets{0};
-        for (Index r = 0; r < odd.rows(); ++r) {
-            const auto in_set = [&](Index place) { return place >= odd.first + sets.back(); };
-            const auto begin = odd.offset[r], end = odd.offset[r + 1];
+    /// Level::cuts of rows in order of insertion: sets are as long as no row refers to another of its own.
+    static std::vector<Index> cuts_of(const Rings& odd, RowRange rows) {
+        std::vector<Index> cuts;
+        Index first = odd.first + rows.begin;  // place of the set
+        for (Index r = rows.begin; r < rows.end; ++r) {
             bool refers = false;
-            for (Index k = begin; k < end; ++k)
-                refers |= in_set(odd.neighbor[k]) || (!odd.flap.empty() && in_set(odd.flap[k]));
-            if (refers) sets.push_back(r);
+            for (Index k = odd.offset[r]; k < odd.offset[r + 1]; ++k)
+                refers |= odd.neighbor[k] >= first || (!odd.flap.empty() && odd.flap[k] >= first);
+            if (refers) cuts.push_back(r), first = odd.first + r;
         }
-        sets.push_back(odd.rows());
-        return sets;
+        return cuts;
     }
 
-    /// Stores the level in local numbers; number() turns them into places.
+    /// Stores the even rings in local numbers; number() turns them into places.
     void end_level() {
-        Level level;
-        level.fine = h_.size.back();
-        level.coarse = left_;
-        level.odd = std::move(odd_);
-        level.even = std::move(even_);
-        level.even.vertices = even_vertex_;
         h_.size.push_back(left_);
-        h_.levels.push_back(std::move(level));
+        if (!options_.even_rings) return;
+        h_.even.push_back(std::move(even_));
+        h_.even.back().vertices = even_vertex_;
     }
 
     void number() {
@@ -229,25 +224,35 @@ private:
         h_.parent.assign(n, -1);
         for (const Index v : removed_) h_.parent[place[v]] = place[parent_[v]];
 
-        for (Level& level : h_.levels) {
-            Array<Index> rows(level.odd.rows());  // recorded in order of removal, wanted in order of insertion
-            for (Index r = 0; r < level.odd.rows(); ++r) rows[r] = level.odd.rows() - 1 - r;
-            level.odd = renumbered(level.odd, rows, place, level.fine);
-            level.odd.first = level.coarse;
-            level.sets = sets_of(level.odd);
-
-            rows.clear();
-            for (Index r = 0; r < level.even.rows(); ++r)
-                if (place[level.even.vertices[r]] < level.coarse) rows.push_back(r);
-            const Array<Index> vertex = std::move(level.even.vertices);
-            level.even = renumbered(level.even, rows, place, level.fine);
-            for (const Index r : rows) level.even.vertices.push_back(place[vertex[r]]);
-        }
         Rings base;
         for (Index p = 0; p < left_; ++p) record(base, h_.order[p]);
         Array<Index> all(left_);
         std::iota(all.begin(), all.end(), 0);
         h_.base = renumbered(base, all, place, n);
+        rows_ = {};
+
+        Array<Index> rows(removed_.size());  // recorded in order of removal, wanted in order of insertion
+        for (std::size_t r = 0; r < rows.size(); ++r) rows[r] = static_cast<Index>(rows.size() - 1 - r);
+        h_.odd = renumbered(odd_, rows, place, n);
+        h_.odd.first = left_;
+        h_.size.shrink_to_fit();
+        h_.levels.resize(h_.size.size() - 1);
+        for (std::size_t k = 0; k < h_.levels.size(); ++k) {
+            Level& level = h_.levels[k];
+            level.fine = h_.size[k], level.coarse = h_.size[k + 1];
+            level.odd = {level.coarse - left_, level.fine - left_};
+            level.cuts = cuts_of(h_.odd, level.odd);
+        }
+        for (std::size_t k = 0; k < h_.even.size(); ++k) number_even(h_.even[k], place, h_.levels[k]);
+    }
+
+    static void number_even(Rings& even, const Array<Index>& place, const Level& level) {
+        Array<Index> rows;
+        for (Index r = 0; r < even.rows(); ++r)
+            if (place[even.vertices[r]] < level.coarse) rows.push_back(r);
+        const Array<Index> vertex = std::move(even.vertices);
+        even = renumbered(even, rows, place, level.fine);
+        for (const Index r : rows) even.vertices.push_back(place[vertex[r]]);
     }
 
     const Positions& positions_;

@@ -22,11 +22,8 @@ class BurtAdelson final : public Scheme {
 public:
     /// @param coarse  Guskov's way: evens are predicted from what the coarse level alone predicts
     BurtAdelson(const Hierarchy& h, const SchemeOptions& options, bool coarse)
-        : Scheme(h), presmooth_(options.presmooth), coarse_(coarse) {
-        for (const Level& level : h.levels) {
-            odd_.emplace_back(level.odd, h.positions, options);
-            even_.emplace_back(level.even, h.positions, options);
-        }
+        : Scheme(h), presmooth_(options.presmooth), coarse_(coarse), odd_(h.odd, h.positions, options) {
+        for (const Rings& even : h.even) even_.emplace_back(even, h.positions, options);
     }
 
     Coefficients analyse(Field f, Storage storage) const override {
@@ -42,32 +39,32 @@ public:
             });
     }
 
-    std::size_t bytes() const override { return relaxed_rows::bytes(odd_) + relaxed_rows::bytes(even_); }
+    std::size_t bytes() const override { return odd_.bytes() + relaxed_rows::bytes(even_); }
 
 private:
     /// The details of a level; f, its values, becomes g of the file's head. Touches only the rows that the level has:
     /// with one vertex per level there are few.
     std::vector<Subband> analyse_level(std::size_t k, Field& f) const {
-        const Level& level = hierarchy().levels[k];
+        const Rings &odd_rings = hierarchy().odd, &even_rings = hierarchy().even[k];
         const bool frames = coarse_ && has_frames(f);
         std::vector<Subband> bands;
         bands.reserve(2);
-        bands.push_back(values_at(level.odd, f, frames));
-        bands.push_back(values_at(level.even, f, frames));
+        bands.push_back(values_at(odd_rings, hierarchy().levels[k].odd, f, frames));
+        bands.push_back(values_at(even_rings, {0, even_rings.rows()}, f, frames));
         Subband &odd = bands[0], &even = bands[1];
-        const auto even_vertex = [&](Index r) { return level.even.vertex(r); };
+        const auto even_vertex = [&](Index r) { return even_rings.vertex(r); };
         if (presmooth_ > 0) presmooth(k, f);
-        predict_odd(hierarchy(), k, odd_[k], f, [&](Index r, const double* predicted) {
+        predict_odd(hierarchy(), k, odd_, f, [&](Index r, const double* predicted) {
             subtract(odd, r, predicted, f);
-            if (coarse_) copy_row(predicted, f.width, f.row(level.coarse + r));
+            if (coarse_) copy_row(predicted, f.width, f.row(odd_rings.vertex(r)));
         });
-        for_relaxed_rows(even_[k], 0, level.even.rows(), f, even_vertex,
+        for_relaxed_rows(even_[k], 0, even_rings.rows(), f, even_vertex,
                          [&](Index r, const double* relaxed) { subtract(even, r, relaxed, f); });
         return bands;
     }
 
     void presmooth(std::size_t k, Field& f) const {
-        const Rings& rings = hierarchy().levels[k].even;
+        const Rings& rings = hierarchy().even[k];
         const auto vertex = [&](Index r) { return rings.vertex(r); };
         Field smooth = Field::unset(rings.rows(), f.width);
         for_relaxed_rows(even_[k], 0, rings.rows(), f, vertex, [&](Index r, const double* relaxed) {
@@ -81,31 +78,33 @@ private:
     template <class Value>
     void synthesise_level(std::size_t k, const Details<Value>& odd, const Details<Value>& even, Field& f) const {
         const Level& level = hierarchy().levels[k];
+        const Rings &odd_rings = hierarchy().odd, &even_rings = hierarchy().even[k];
         const int width = f.width;
-        const auto odd_row = [&](Index r) { return f.row(level.coarse + r); };
+        const auto odd_row = [&](Index r) { return f.row(odd_rings.vertex(r)); };
         // Guskov predicts even vertices from predicted odd ones: those are finished when that is done.
-        predict_odd(hierarchy(), k, odd_[k], f, [&](Index r, const double* predicted) {
+        predict_odd(hierarchy(), k, odd_, f, [&](Index r, const double* predicted) {
             if (coarse_)
                 copy_row(predicted, width, odd_row(r));
             else
                 odd.add(r, predicted, f, odd_row(r));
         });
-        Field values = Field::unset(level.even.rows(), width);  // rows need the old values of all
-        const auto vertex = [&](Index r) { return level.even.vertex(r); };
-        for_relaxed_rows(even_[k], 0, level.even.rows(), f, vertex,
+        Field values = Field::unset(even_rings.rows(), width);  // rows need the old values of all
+        const auto vertex = [&](Index r) { return even_rings.vertex(r); };
+        for_relaxed_rows(even_[k], 0, even_rings.rows(), f, vertex,
                          [&](Index r, const double* relaxed) { even.add(r, relaxed, f, values.row(r)); });
         if (coarse_)  // the sets in reverse order, so that frames are those of predicted vertices
-            for (std::size_t s = level.sets.size() - 1; s-- > 0;)
-                parallel_for(level.sets[s + 1] - level.sets[s], [&](Index i) {
-                    const Index r = level.sets[s] + i;
+            for (std::size_t s = level.sets(); s-- > 0;)
+                parallel_for(level.set(s).size(), [&](Index i) {
+                    const Index r = level.set(s).begin + i;
                     odd.add(r, odd_row(r), f, odd_row(r));
                 });
-        parallel_for(level.even.rows(), [&](Index r) { copy_row(values.row(r), width, f.row(vertex(r))); });
+        parallel_for(even_rings.rows(), [&](Index r) { copy_row(values.row(r), width, f.row(vertex(r))); });
     }
 
     double presmooth_;
     bool coarse_;
-    std::vector<Stencil> odd_, even_;
+    Stencil odd_;
+    std::vector<Stencil> even_;  ///< #levels
 };
 
 template <bool coarse>

@@ -123,6 +123,7 @@ public:
             out.level.emplace_back(types);
             for (Subband& band : out.level.back()) {
                 band.rings = &rings;
+                band.range = {0, rings.rows()};
                 band.values = Field::unset(rings.rows(), f.width);
                 band.values.has_positions = f.has_positions;
             }

@@ -137,10 +137,10 @@ Hierarchy lattice_hierarchy(const Mesh& mesh, const HierarchyOptions& options) {
     for (std::size_t k = 0; k + 1 < h.size.size(); ++k) {
         Level level;
         level.fine = h.size[k], level.coarse = h.size[k + 1];
-        level.odd = no_rings(level.coarse, level.fine - level.coarse);
-        level.sets = {0, level.odd.rows()};
+        level.odd = {level.coarse - h.size.back(), level.fine - h.size.back()};
         h.levels.push_back(std::move(level));
     }
+    h.odd = no_rings(h.size.back(), h.size.front() - h.size.back());
     h.base = no_rings(0, h.size.back());
     for (const Index v : h.order) {
         h.positions.push_back(mesh.positions[v]);

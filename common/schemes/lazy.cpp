@@ -18,15 +18,13 @@ using namespace relaxed_rows;
 
 class Lazy final : public Scheme {
 public:
-    Lazy(const Hierarchy& h, const SchemeOptions& options) : Scheme(h) {
-        for (const Level& level : h.levels) odd_.emplace_back(level.odd, h.positions, options);
-    }
+    Lazy(const Hierarchy& h, const SchemeOptions& options) : Scheme(h), odd_(h.odd, h.positions, options) {}
 
     Coefficients analyse(Field f, Storage storage) const override {
         return analyse_levels(hierarchy(), std::move(f), storage, [&](std::size_t k, const Field& values) {
             std::vector<Subband> bands;
-            bands.push_back(values_at(hierarchy().levels[k].odd, values, has_frames(values)));
-            predict_odd(hierarchy(), k, odd_[k], values,
+            bands.push_back(values_at(hierarchy().odd, hierarchy().levels[k].odd, values, has_frames(values)));
+            predict_odd(hierarchy(), k, odd_, values,
                         [&](Index r, const double* predicted) { subtract(bands[0], r, predicted, values); });
             return bands;
         });
@@ -40,17 +38,17 @@ public:
                                  });
     }
 
-    std::size_t bytes() const override { return relaxed_rows::bytes(odd_); }
+    std::size_t bytes() const override { return odd_.bytes(); }
 
 private:
     template <class Value>
     void synthesise_level(std::size_t k, const Details<Value>& odd, Field& f) const {
-        const Index coarse = hierarchy().levels[k].coarse;
-        predict_odd(hierarchy(), k, odd_[k], f,
-                    [&](Index r, const double* predicted) { odd.add(r, predicted, f, f.row(coarse + r)); });
+        const Rings& rings = hierarchy().odd;
+        predict_odd(hierarchy(), k, odd_, f,
+                    [&](Index r, const double* predicted) { odd.add(r, predicted, f, f.row(rings.vertex(r))); });
     }
 
-    std::vector<Stencil> odd_;
+    Stencil odd_;
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <utility>
+#include <stdexcept>
 #include <vector>
 
 /// What schemes that predict vertices by a relaxation operator have in common: weights as they are stored, loops over
@@ -16,12 +16,11 @@ namespace multires::relaxed_rows {
 /// The weights of some rings, as they are stored.
 class Stencil {
 public:
-    Stencil(const Rings& rings, const Positions& positions, const SchemeOptions& options)
-        : Stencil(rings, ring_weights(rings, positions, relaxation(options.op)), options.storage) {}
-    Stencil(const Rings& rings, RingWeights weights, Storage storage) : rings_(&rings), weights_(std::move(weights)) {
-        if (storage != Storage::single) return;
-        narrow(weights_.weight, ring_single_);
-        narrow(weights_.flap_weight, flap_single_);
+    Stencil(const Rings& rings, const Positions& positions, const SchemeOptions& options) : rings_(&rings) {
+        if (options.storage == Storage::single)
+            make_single(positions, relaxation(options.op));
+        else
+            weights_ = ring_weights(rings, positions, relaxation(options.op));
     }
 
     RowWeights rows() const {
@@ -44,9 +43,30 @@ private:
         options.op = op;
         return options;
     }
-    static void narrow(Array<double>& wide, Array<float>& single) {
-        single.assign(wide.begin(), wide.end());
-        wide = Array<double>();
+
+    /// The same weights, never all of them as double.
+    void make_single(const Positions& positions, const RelaxationOptions& options) {
+        const Rings& rings = *rings_;
+        const bool flaps = uses_flaps(options.op);
+        if (flaps && rings.flap.size() != rings.neighbor.size())
+            throw std::invalid_argument("Stencil: the rings have no flaps");
+        ring_single_.resize(rings.neighbor.size());
+        if (flaps) flap_single_.resize(rings.neighbor.size());
+        std::vector<std::uint8_t> fixed(rings.rows());
+        parallel_chunks(rings.rows(), 512, [&](Index begin, Index end) {
+            RowRelaxation relaxation(options);
+            std::vector<double> ring, flap;
+            for (Index r = begin; r < end; ++r) {
+                const Index size = rings.size(r), at = rings.offset[r];
+                ring.resize(size);
+                flap.resize(size);
+                fixed[r] = !relaxation.row(star(rings, r), positions, ring.data(), flaps ? flap.data() : nullptr);
+                std::copy_n(ring.begin(), size, ring_single_.begin() + at);
+                if (flaps) std::copy_n(flap.begin(), size, flap_single_.begin() + at);
+            }
+        });
+        for (Index r = 0; r < rings.rows(); ++r)
+            if (fixed[r]) weights_.fixed.push_back(r);
     }
 
     const Rings* rings_;
@@ -86,30 +106,34 @@ void for_relaxed_rows(const Stencil& s, Index begin, Index end, const Field& f, 
 
 /// Predicts every odd vertex of a level from g and hands (row, prediction) to `take`, which may write g at that vertex.
 /// One set of odd vertices after the other. An odd vertex that keeps its value is predicted by its parent.
+/// @param odd  of Hierarchy::odd, as the rows are
 template <class Take>
 void predict_odd(const Hierarchy& h, std::size_t k, const Stencil& odd, const Field& g, const Take& take) {
     const Level& level = h.levels[k];
-    const auto parent = [&](Index r) { return h.parent[level.coarse + r]; };
-    for (std::size_t s = 0; s + 1 < level.sets.size(); ++s)
-        for_relaxed_rows(odd, level.sets[s], level.sets[s + 1], g, parent, take);
+    const auto parent = [&](Index r) { return h.parent[h.odd.vertex(r)]; };
+    for (std::size_t s = 0; s < level.sets(); ++s)
+        for_relaxed_rows(odd, level.set(s).begin, level.set(s).end, g, parent, take);
 }
 
 /// A subband whose rows are still the values themselves: those of `f` at its places.
-inline Subband values_at(const Rings& rings, const Field& f, bool frames) {
+inline Subband values_at(const Rings& rings, RowRange range, const Field& f, bool frames) {
     Subband band;
     band.rings = &rings;
-    band.values = Field::unset(rings.rows(), f.width);
-    if (frames) band.local.resize(rings.rows());
-    parallel_for(rings.rows(), [&](Index r) { copy_row(f.row(rings.vertex(r)), f.width, band.values.row(r)); });
+    band.range = range;
+    band.values = Field::unset(band.rows(), f.width);
+    if (frames) band.local.resize(band.rows());
+    parallel_for(band.rows(), [&](Index r) { copy_row(f.row(band.place(r)), f.width, band.values.row(r)); });
     return band;
 }
 
 /// Makes a row of values_at() a detail: what the prediction misses, in the frame of its ring over g if the subband has
 /// frames.
+/// @param r  row of the rings
 inline void subtract(Subband& band, Index r, const double* predicted, const Field& g) {
-    double* detail = band.values.row(r);
+    const Index own = r - band.range.begin;
+    double* detail = band.values.row(own);
     for (int c = 0; c < band.values.width; ++c) detail[c] -= predicted[c];
-    if (!band.local.empty()) band.local[r] = turn_into(frame_of(*band.rings, r, g), detail);
+    if (!band.local.empty()) band.local[own] = turn_into(frame_of(*band.rings, r, g), detail);
 }
 
 /// The details of a subband on their way back, as they are stored.
@@ -119,14 +143,16 @@ struct Details {
     const Value* values = nullptr;  ///< null: all are zero
     const std::uint8_t* local = nullptr;
     double gain = 1;
+    Index first = 0;  ///< row of the rings that the first detail belongs to
 
     /// The inverse of subtract(): prediction + gain x detail.
+    /// @param r  row of the rings
     void add(Index r, const double* predicted, const Field& g, double* value) const {
         const int width = g.width;
         if (!values) return copy_row(predicted, width, value);
-        const Value* detail = values + static_cast<std::size_t>(r) * width;
+        const Value* detail = values + static_cast<std::size_t>(r - first) * width;
         int c = 0;
-        if (local && local[r]) {
+        if (local && local[r - first]) {
             const Vec3 world = frame_of(*rings, r, g).to_world(Vec3(detail[0], detail[1], detail[2]));
             for (; c < 3; ++c) value[c] = predicted[c] + gain * world[c];
         }
@@ -144,7 +170,7 @@ Details<Value> details_of(const Subband& band, double gain, bool frames) {
         values = band.single.data();
     else
         values = band.values.values.data();
-    return {band.rings, values, frames && !band.local.empty() ? band.local.data() : nullptr, gain};
+    return {band.rings, values, frames && !band.local.empty() ? band.local.data() : nullptr, gain, band.range.begin};
 }
 
 /// Calls run(first, last) with the details of the first and the last subband of a level as they are stored, both

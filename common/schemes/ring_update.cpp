@@ -24,8 +24,10 @@ constexpr int most = 64;  // colours
 /// Gives every row of a set the first colour that no row it must not meet has; `most` if all are taken.
 class Colouring {
 public:
-    explicit Colouring(const Level& level) : odd_(level.odd), masks_(level.fine), colour_(level.odd.rows()) {}
+    Colouring(const Rings& odd, const Level& level)
+        : odd_(odd), first_(level.odd.begin), masks_(level.fine), colour_(level.odd.size()) {}
 
+    /// Rows as in Batches.
     void run(Index begin, Index end) {
         for (Index r = begin; r < end; ++r) {
             std::uint64_t taken = 0;
@@ -54,15 +56,18 @@ private:
 
     template <class Take>
     void for_ring(Index r, const Take& take) {
+        r += first_;
         for (Index k = odd_.offset[r]; k < odd_.offset[r + 1]; ++k) take(masks_[odd_.neighbor[k]]);
     }
     template <class Take>
     void for_flaps(Index r, const Take& take) {
         if (odd_.flap.empty()) return;
+        r += first_;
         for (Index k = odd_.offset[r]; k < odd_.offset[r + 1]; ++k) take(masks_[odd_.flap[k]]);
     }
 
     const Rings& odd_;
+    Index first_;
     std::vector<Masks> masks_;
     Array<std::uint8_t> colour_;
 };
@@ -75,19 +80,26 @@ Array<Part> parts_of(const Hierarchy& h) {
         parallel_for(rings.rows(), [&](Index r) { part[first + r] = part_of(rings, r); });
     };
     take(h.base, 0);
-    for (const Level& level : h.levels) take(level.odd, level.coarse);
+    take(h.odd, h.odd.first);
     return part;
 }
 
-Batches batches_of(const Level& level) {
-    const Index rows = level.odd.rows();
+Batches sets_of(const Level& level) {
+    Batches out{{}, {0}};
+    for (std::size_t s = 0; s < level.sets(); ++s) out.bounds.push_back(level.set(s).end - level.odd.begin);
+    return out;
+}
+
+Batches batches_of(const Hierarchy& h, std::size_t k) {
+    const Level& level = h.levels[k];
+    const Index rows = level.odd.size();
     if (rows == 1) return {{}, {0, 1}};
     Batches out;
     out.rows.resize(rows);
     out.bounds = {0};
-    Colouring colour(level);
-    for (std::size_t s = 0; s + 1 < level.sets.size(); ++s) {
-        const Index begin = level.sets[s], end = level.sets[s + 1];
+    Colouring colour(h.odd, level);
+    for (std::size_t s = 0; s < level.sets(); ++s) {
+        const Index begin = level.set(s).begin - level.odd.begin, end = level.set(s).end - level.odd.begin;
         colour.run(begin, end);
         std::array<Index, most + 2> at{};  // where the next row of each colour goes
         for (Index r = begin; r < end; ++r) ++at[colour.of(r) + 1];

@@ -22,19 +22,21 @@ enum class Part : std::uint8_t {
 /// #V, by place.
 Array<Part> parts_of(const Hierarchy& h);
 
-/// Odd rows of a level, ordered and cut so that those of a batch can be updated and predicted in any order or at the
-/// same time: no row of it writes what another one reads. Analysis goes from the last batch to the first, synthesis
-/// from the first to the last; that is one vertex after the other, in an order of our choice within each of
-/// Level::sets.
+/// Odd rows of a level, counted from its first, ordered and cut so that those of a batch can be updated and predicted
+/// in any order or at the same time: no row of it writes what another one reads. Analysis goes from the last batch to
+/// the first, synthesis from the first to the last; that is one vertex after the other, in an order of our choice
+/// within each of the level's sets.
 struct Batches {
-    Array<Index> rows;          ///< #odd rows; or empty: in their own order
-    std::vector<Index> bounds;  ///< from 0 to #odd rows
+    Array<Index> rows;          ///< #odd rows of the level; or empty: in their own order
+    std::vector<Index> bounds;  ///< from 0 to #odd rows of the level
 
     Index row(Index at) const { return rows.empty() ? at : rows[at]; }
 };
 
 /// Cost: linear in the entries; one thread.
-Batches batches_of(const Level& level);
+Batches batches_of(const Hierarchy& h, std::size_t level);
+/// The sets themselves, for rows that write nothing but their own vertex.
+Batches sets_of(const Level& level);
 
 /// What the update of a row is about: the ring, or on curves the two neighbours along it.
 struct Neighbours {

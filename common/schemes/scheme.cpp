@@ -36,6 +36,7 @@ std::size_t bytes(const Coefficients& coefficients) {
 Vec3 Scheme::normal(const Subband& subband, Index row, const Positions& positions) const {
     if (!subband.local.empty() && subband.local[row]) return {0, 0, 1};
     const Rings& rings = *subband.rings;
+    row += subband.range.begin;
     const auto at = [&](Index place) { return positions[h_.order[place]]; };
     if (rings.size(row) == 0) return Vec3::Zero();  // irregular or isolated
     const bool open = rings.kind[row] == RingKind::open;

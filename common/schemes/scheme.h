@@ -21,16 +21,17 @@ enum class Update {
 /// Details of one kind of vertices of one level: those that go, those that stay, ... Filters treat all subbands alike;
 /// what a scheme puts into which is its own business. Within a level they come in the same order on all levels.
 struct Subband {
-    /// Row r belongs to row r of these rings of the hierarchy (or of the scheme), which outlive the subband: its place
-    /// is rings->vertex(r), and the ring is that of the mesh the details are seen against.
+    /// Row r belongs to row range.begin + r of these rings of the hierarchy (or of the scheme), which outlive the
+    /// subband: the ring is that of the mesh the details are seen against.
     const Rings* rings = nullptr;
+    RowRange range;
     Field values;         ///< #rows by width; no rows where `single` holds the values: see widen()
     Array<float> single;  ///< Storage::single: #rows by width, instead of `values`
     /// #rows, 1 where channels 0..2 are in a local frame whose third axis is the surface's normal; empty: nowhere.
     std::vector<std::uint8_t> local;
 
-    Index rows() const { return rings->rows(); }
-    Index place(Index row) const { return rings->vertex(row); }
+    Index rows() const { return range.size(); }
+    Index place(Index row) const { return rings->vertex(range.begin + row); }
 };
 
 /// Storage::single: moves the values to `single`, and back to `values` (which does nothing where they are there).

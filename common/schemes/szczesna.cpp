@@ -56,7 +56,7 @@ public:
         : may_fold_(may_fold && op != Operator::umbrella), relaxation_(relaxation_of(op)),
           natural_(relaxation_of(Operator::natural_neighbours)) {}
 
-    /// @param weight, flaps  of the level's entries
+    /// @param weight, flaps  of all entries
     /// @returns false if the vertex keeps its value
     bool row(const Rings& rings, Index r, const Positions& positions, double* weight, double* flaps) {
         const Star s = star(rings, r);
@@ -74,19 +74,17 @@ class Szczesna final : public Scheme {
 public:
     Szczesna(const Hierarchy& h, const SchemeOptions& options) : Scheme(h) {
         if (options.update == Update::mean) part_ = ring_update::parts_of(h);
-        for (const Level& level : h.levels) first_entry_.push_back(first_entry_.back() + level.odd.neighbor.size());
-        weight_.resize(first_entry_.back());
+        require_flaps(h.odd, options.op);
+        weight_.resize(h.odd.neighbor.size());
         if (uses_flaps(options.op)) flap_weight_.resize(weight_.size());
-        keeps_.assign(h.vertices(), 0);
+        keeps_.resize(h.odd.rows());
         Positions positions = h.positions;
         Weigher weigher(options.op, updates());
+        batches_.resize(h.levels.size());
         for (std::size_t k = 0; k < h.levels.size(); ++k) {
-            const Level& level = h.levels[k];
-            require_flaps(level.odd, options.op);
-            batches_.emplace_back();
-            if (level.odd.rows() != 1)
-                batches_[k] =
-                    std::make_unique<Batches>(updates() ? ring_update::batches_of(level) : Batches{{}, level.sets});
+            if (h.levels[k].odd.size() != 1)
+                batches_[k] = std::make_unique<Batches>(updates() ? ring_update::batches_of(h, k)
+                                                                  : ring_update::sets_of(h.levels[k]));
             weigh(k, options.op, weigher, positions);
         }
         if (options.storage != Storage::single) return;
@@ -110,7 +108,6 @@ public:
         std::size_t sum = part_.capacity() * sizeof(Part) + keeps_.capacity() +
                           (weight_.capacity() + flap_weight_.capacity()) * sizeof(double) +
                           (single_.capacity() + flap_single_.capacity()) * sizeof(float) +
-                          first_entry_.capacity() * sizeof(std::size_t) +
                           batches_.capacity() * sizeof(std::unique_ptr<Batches>);
         for (const auto& b : batches_)
             if (b) sum += sizeof(Batches) + (b->rows.capacity() + b->bounds.capacity()) * sizeof(Index);
@@ -136,9 +133,9 @@ private:
         return batches_[k] ? *batches_[k] : one_row;
     }
 
-    RowWeights rows(std::size_t k) const {
-        const auto from = [&](const auto& all) { return all.empty() ? nullptr : all.data() + first_entry_[k]; };
-        return {&hierarchy().levels[k].odd, from(weight_), from(flap_weight_), from(single_), from(flap_single_)};
+    RowWeights rows() const {
+        const auto from = [&](const auto& all) { return all.empty() ? nullptr : all.data(); };
+        return {&hierarchy().odd, from(weight_), from(flap_weight_), from(single_), from(flap_single_)};
     }
 
     template <class At>
@@ -149,16 +146,16 @@ private:
     /// Takes all rows of a level out of the positions, and makes the weights of each from what it leaves.
     /// @param shared  for batches too small to be worth one of their own
     void weigh(std::size_t k, Operator op, Weigher& shared, Positions& positions) {
-        const Rings& odd = hierarchy().levels[k].odd;
+        const Rings& odd = hierarchy().odd;
         const Batches& batches = this->batches(k);
-        double* const weight = weight_.data() + first_entry_[k];
-        double* const flaps = flap_weight_.empty() ? nullptr : flap_weight_.data() + first_entry_[k];
+        const Index first = hierarchy().levels[k].odd.begin;
+        double* const flaps = flap_weight_.empty() ? nullptr : flap_weight_.data();
         const auto at = [&](Index place) { return positions[place].data(); };
         const auto run = [&](Index begin, Index end, Weigher& weigher) {
             for (Index i = begin; i < end; ++i) {
-                const Index r = batches.row(i);
+                const Index r = first + batches.row(i);
                 update(odd, r, 3, false, at);
-                keeps_[odd.vertex(r)] = !weigher.row(odd, r, positions, weight, flaps);
+                keeps_[r] = !weigher.row(odd, r, positions, weight_.data(), flaps);
             }
         };
         for (std::size_t b = batches.bounds.size() - 1; b-- > 0;) {
@@ -177,34 +174,35 @@ private:
     template <class Take>
     void for_batch(std::size_t k, std::size_t b, int width, const Take& take) const {
         const Batches& batches = this->batches(k);
-        const Index first = batches.bounds[b];
+        const Index first = batches.bounds[b], row = hierarchy().levels[k].odd.begin;
         parallel_chunks(batches.bounds[b + 1] - first, grain, [&](Index begin, Index end) {
             Field room = Field::unset(1, width);
-            for (Index i = begin; i < end; ++i) take(batches.row(first + i), room.row(0));
+            for (Index i = begin; i < end; ++i) take(row + batches.row(first + i), room.row(0));
         });
     }
 
     /// R f of an odd row; one that keeps its value is predicted by its parent.
-    void predict(std::size_t k, const RowWeights& weights, Index r, const Field& f, double* predicted) const {
-        const Index place = hierarchy().levels[k].coarse + r;
-        if (keeps_[place]) return copy_row(f.row(hierarchy().parent[place]), f.width, predicted);
+    void predict(const RowWeights& weights, Index r, const Field& f, double* predicted) const {
+        if (keeps_[r]) return copy_row(f.row(hierarchy().parent[weights.rings->vertex(r)]), f.width, predicted);
         row_sums(weights, r, r + 1, f.values.data(), f.width, predicted);
     }
 
     /// The details of a level; f, its values, becomes those of the coarser one.
     std::vector<Subband> analyse_level(std::size_t k, Field& f) const {
-        const Rings& odd = hierarchy().levels[k].odd;
-        const RowWeights weights = rows(k);
+        const Rings& odd = hierarchy().odd;
+        const RowWeights weights = rows();
         const auto at = [&](Index place) { return f.row(place); };
         std::vector<Subband> bands(1);
         bands[0].rings = &odd;
-        bands[0].values = Field::unset(odd.rows(), f.width);
+        bands[0].range = hierarchy().levels[k].odd;
+        bands[0].values = Field::unset(bands[0].rows(), f.width);
         for (std::size_t b = batches(k).bounds.size() - 1; b-- > 0;)
             for_batch(k, b, f.width, [&](Index r, double* predicted) {
                 update(odd, r, f.width, false, at);
-                predict(k, weights, r, f, predicted);
+                predict(weights, r, f, predicted);
                 const double* const value = f.row(odd.vertex(r));
-                for (int c = 0; c < f.width; ++c) bands[0].values.row(r)[c] = value[c] - predicted[c];
+                double* const detail = bands[0].values.row(r - bands[0].range.begin);
+                for (int c = 0; c < f.width; ++c) detail[c] = value[c] - predicted[c];
             });
         return bands;
     }
@@ -212,24 +210,23 @@ private:
     /// The inverse of analyse_level.
     template <class Value>
     void synthesise_level(std::size_t k, const Details<Value>& details, Field& f) const {
-        const Rings& odd = hierarchy().levels[k].odd;
-        const RowWeights weights = rows(k);
+        const Rings& odd = hierarchy().odd;
+        const RowWeights weights = rows();
         const auto at = [&](Index place) { return f.row(place); };
         for (std::size_t b = 0; b + 1 < batches(k).bounds.size(); ++b)
             for_batch(k, b, f.width, [&](Index r, double* predicted) {
-                predict(k, weights, r, f, predicted);
+                predict(weights, r, f, predicted);
                 details.add(r, predicted, f, f.row(odd.vertex(r)));
                 update(odd, r, f.width, true, at);
             });
     }
 
-    // A level may be one vertex: what all of them have is in one table.
+    // A level may be one vertex: what all of them have is in one table, as it is in Hierarchy::odd.
     Array<Part> part_;                               ///< #V; empty: no update
     std::vector<std::unique_ptr<Batches>> batches_;  ///< #levels; null: one row
-    std::vector<std::size_t> first_entry_{0};        ///< #levels+1: where the entries of a level's rings begin
     Array<double> weight_, flap_weight_;             ///< #entries
     Array<float> single_, flap_single_;              ///< the same with Storage::single
-    Array<std::uint8_t> keeps_;                      ///< #V, by place: has no prediction but its parent
+    Array<std::uint8_t> keeps_;                      ///< #odd rows: has no prediction but its parent
 };
 
 }  // namespace

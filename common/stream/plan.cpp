@@ -169,10 +169,10 @@ void Plan::join(std::vector<Hierarchy> stages) {
             order_.push_back(inputs[k][p]);
             parent_.push_back(place[h.parent[p]]);
         }
-        for (std::size_t l = h.levels.size(); l-- > 0;) {
-            batches_.push_back({h.levels[l].coarse, std::move(h.levels[l].odd)});
-            for (Index& p : batches_.back().odd.neighbor) p = place[p];
-        }
+        for (std::size_t l = h.levels.size(); l-- > 0;)
+            batches_.push_back({h.levels[l].coarse, odd_.size(), h.levels[l].odd});
+        odd_.push_back(std::move(h.odd));
+        for (Index& p : odd_.back().neighbor) p = place[p];
         Array<Index> of_vertex(h.vertices());
         for (Index p = 0; p < h.vertices(); ++p) of_vertex[h.order[p]] = place[p];
         place = std::move(of_vertex);
@@ -204,12 +204,12 @@ void Plan::estimate_errors() {
         const Batch& batch = batches_[b];
         double squares = 0, squares_of_first = 0;
         std::ptrdiff_t gone = 0;
-        for (Index row = 0; row < batch.odd.rows(); ++row) {
+        for (Index row = 0; row < batch.rows.size(); ++row) {
             const double square = squared_height(batch, row);
             squares += square;
             if (!first_.empty() && first_[order_[batch.coarse + row]]) squares_of_first += square, ++gone;
         }
-        sum += squares / (batch.coarse + batch.odd.rows());
+        sum += squares / (batch.coarse + batch.rows.size());
         error_[b] = std::sqrt(sum);
         if (gone > 0) sum_of_first += squares_of_first / static_cast<double>(left);
         left -= gone;
@@ -224,8 +224,10 @@ double Plan::squared_height(const Batch& batch, Index row) const {
     };
     const Vec3 u = point(parent_[batch.coarse + row]), v = point(batch.coarse + row);
     double least = (v - u).squaredNorm();
-    for (Index j = 0; j + 1 < batch.odd.size(row); ++j) {
-        const Vec3 n = (point(batch.odd.begin(row)[j]) - u).cross(point(batch.odd.begin(row)[j + 1]) - u);
+    const Rings& odd = odd_[batch.stage];
+    const Index* const ring = odd.begin(batch.rows.begin + row);
+    for (Index j = 0; j + 1 < odd.size(batch.rows.begin + row); ++j) {
+        const Vec3 n = (point(ring[j]) - u).cross(point(ring[j + 1]) - u);
         const double size = n.squaredNorm(), height = n.dot(v - u);
         if (size > 0) least = std::min(least, height * height / size);
     }
@@ -235,14 +237,16 @@ double Plan::squared_height(const Batch& batch, Index row) const {
 void Plan::begin_batch(std::size_t batch) {
     batch_ = &batches_[batch];
     first_row_.assign(batch_->coarse, -1);
-    next_row_.assign(batch_->odd.rows(), -1);
-    for (Index row = batch_->odd.rows() - 1; row >= 0; --row) {
+    next_row_.assign(batch_->rows.size(), -1);
+    for (Index row = batch_->rows.size() - 1; row >= 0; --row) {
         const Index parent = vertex_[parent_[batch_->coarse + row]];
         next_row_[row] = first_row_[parent];
         first_row_[parent] = row;
     }
     ring_.clear();
-    for (const Index place : batch_->odd.neighbor) ring_.push_back(vertex_[place]);
+    const Rings& odd = odd_[batch_->stage];
+    first_entry_ = odd.offset[batch_->rows.begin];
+    for (Index k = first_entry_; k < odd.offset[batch_->rows.end]; ++k) ring_.push_back(vertex_[odd.neighbor[k]]);
 }
 
 std::optional<NewVertex> Plan::next(Index u, const Star& star) {
@@ -267,9 +271,10 @@ Cell Plan::cell(Index v) const {
 }
 
 Fan Plan::find_fan(Index row, Index parent, const Star& star) const {
-    const Rings& odd = batch_->odd;
+    const Rings& odd = odd_[batch_->stage];
+    row += batch_->rows.begin;
     const Index k = odd.size(row), d = star.faces(), m = k - 2;
-    const Index* const ring = &ring_[odd.offset[row]];
+    const Index* const ring = &ring_[odd.offset[row] - first_entry_];
     Index t = 0;
     while (ring[t] != parent) ++t;
     const auto vertex = [&](Index i) { return ring[i < 0 ? i + k : i < k ? i : i - k]; };

@@ -45,8 +45,9 @@ public:
 
 private:
     struct Batch {
-        Index coarse = 0;  ///< vertices before it; row r is that of place coarse + r
-        Rings odd;         ///< at the moment of their removal, in places
+        Index coarse = 0;  ///< vertices before it; its row r is that of place coarse + r
+        std::size_t stage = 0;
+        RowRange rows;  ///< of odd_[stage]
     };
     std::vector<Hierarchy> stages(const Mesh& mesh, const Tick& tick) const;
     void join(std::vector<Hierarchy> stages);
@@ -58,6 +59,7 @@ private:
     std::vector<Cell> cells_;
     Index base_ = 0;
     Array<Index> order_, parent_;  ///< #V by place, as in Hierarchy
+    std::vector<Rings> odd_;       ///< of each stage, at the moment of their removal, in places
     std::vector<Batch> batches_;   ///< in order of the stream
     std::vector<double> error_, error_of_first_;
     std::vector<std::uint8_t> first_;
@@ -66,6 +68,7 @@ private:
     const Batch* batch_ = nullptr;
     std::vector<Index> first_row_, next_row_;  ///< rows of each vertex's children in the batch; -1: none
     std::vector<Index> ring_;                  ///< the batch's rings, in vertices of the stream
+    Index first_entry_ = 0;                    ///< of odd_, of ring_[0]
 };
 
 }  // namespace multires::stream

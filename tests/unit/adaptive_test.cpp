@@ -107,12 +107,11 @@ TEST(Refinement, PrefixesOfTheOrderAreClosedAndNested) {
         const Insertion insertion = insertion_order(h, importance);
         std::vector<Index> rank(h.vertices());
         for (Index i = 0; i < h.vertices(); ++i) rank[insertion.order[i]] = i;
-        for (const Level& level : h.levels)
-            for (Index r = 0; r < level.odd.rows(); ++r) {
-                const Index p = level.odd.vertex(r);
-                ASSERT_GE(insertion.key[p], importance[p]);
-                for (Index j = 0; j < level.odd.size(r); ++j) ASSERT_LT(rank[level.odd.begin(r)[j]], rank[p]);
-            }
+        for (Index r = 0; r < h.odd.rows(); ++r) {
+            const Index p = h.odd.vertex(r);
+            ASSERT_GE(insertion.key[p], importance[p]);
+            for (Index j = 0; j < h.odd.size(r); ++j) ASSERT_LT(rank[h.odd.begin(r)[j]], rank[p]);
+        }
         for (Index i = 1; i < h.vertices(); ++i)
             ASSERT_GE(insertion.key[insertion.order[i - 1]], insertion.key[insertion.order[i]]);
         EXPECT_EQ(insertion.count(0), h.vertices());

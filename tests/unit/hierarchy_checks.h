@@ -40,6 +40,20 @@ inline Mesh mesh_of_prefix(const Hierarchy& h, const Mesh& mesh, Index count) {
     return {Positions(h.positions.begin(), h.positions.begin() + count), prefix_mesh(h, mesh.faces, count).faces};
 }
 
+/// Rows refer to their parent, and to nothing of their own set.
+inline void expect_rows_of_set(const Hierarchy& h, RowRange set) {
+    ASSERT_LT(set.begin, set.end);
+    const Index below = h.odd.vertex(set.begin);
+    for (Index r = set.begin; r < set.end; ++r) {
+        const Index* begin = h.odd.begin(r);
+        ASSERT_TRUE(std::count(begin, begin + h.odd.size(r), h.parent[h.odd.vertex(r)])) << "parent is no neighbour";
+        for (Index j = 0; j < h.odd.size(r); ++j) {
+            ASSERT_LT(begin[j], below);
+            ASSERT_LT(h.odd.flap[h.odd.offset[r] + j], below);
+        }
+    }
+}
+
 inline void expect_numbering(const Hierarchy& h, const Mesh& mesh, const HierarchyOptions& options) {
     const Index n = static_cast<Index>(mesh.positions.size());
     ASSERT_EQ(h.vertices(), n);
@@ -63,19 +77,14 @@ inline void expect_numbering(const Hierarchy& h, const Mesh& mesh, const Hierarc
         ASSERT_EQ(level.fine, h.size[k]);
         ASSERT_EQ(level.coarse, h.size[k + 1]);
         ASSERT_LT(level.coarse, level.fine);
-        ASSERT_EQ(level.odd.rows(), level.fine - level.coarse);
-        ASSERT_EQ(level.odd.first, level.coarse);
-        for (Index r = 0; r < level.odd.rows(); ++r) {
-            const Index p = level.odd.vertex(r),
-                        below = level.coarse + *(std::upper_bound(level.sets.begin(), level.sets.end(), r) - 1);
-            const Index* begin = level.odd.begin(r);
-            ASSERT_TRUE(std::count(begin, begin + level.odd.size(r), h.parent[p])) << "parent is no neighbour";
-            for (Index j = 0; j < level.odd.size(r); ++j) {
-                ASSERT_LT(begin[j], below) << "level " << k;
-                ASSERT_LT(level.odd.flap[level.odd.offset[r] + j], below);
-            }
-        }
+        ASSERT_EQ(level.odd.size(), level.fine - level.coarse);
+        ASSERT_EQ(h.odd.vertex(level.odd.begin), level.coarse);
+        ASSERT_EQ(level.set(0).begin, level.odd.begin);
+        ASSERT_EQ(level.set(level.sets() - 1).end, level.odd.end);
+        for (std::size_t s = 0; s < level.sets(); ++s) expect_rows_of_set(h, level.set(s));
+        if (testing::Test::HasFatalFailure()) return;
     }
+    ASSERT_EQ(h.odd.rows(), n - h.size.back());
 }
 
 /// A stored row without feature marks; those have tests of their own.
@@ -92,25 +101,27 @@ inline void expect_stored_rings(const Hierarchy& h, const Mesh& mesh, Index stri
         const Level& level = h.levels[k];
         if (k > 0 && k % (h.levels.size() > 100 ? stride : 1) != 0) continue;
         const Rings rings = rings_with_flaps(mesh_of_prefix(h, mesh, level.fine));
-        ASSERT_TRUE(level.even.rows() == level.coarse ||
-                    (level.odd.rows() == 1 && level.even.rows() == level.odd.size(0)));
-        std::set<Index> even(level.even.vertices.begin(), level.even.vertices.end());
-        ASSERT_EQ(static_cast<Index>(even.size()), level.even.rows()) << "a vertex has two rows";
+        const Rings& stored = h.even[k];
+        ASSERT_TRUE(stored.rows() == level.coarse ||
+                    (level.odd.size() == 1 && stored.rows() == h.odd.size(level.odd.begin)));
+        std::set<Index> even(stored.vertices.begin(), stored.vertices.end());
+        ASSERT_EQ(static_cast<Index>(even.size()), stored.rows()) << "a vertex has two rows";
         ASSERT_LT(*even.rbegin(), level.coarse);
-        for (Index r = 0; r < level.even.rows(); ++r)
-            ASSERT_EQ(plain_row(level.even, r), plain_row(rings, level.even.vertex(r))) << "level " << k;
+        for (Index r = 0; r < stored.rows(); ++r)
+            ASSERT_EQ(plain_row(stored, r), plain_row(rings, stored.vertex(r))) << "level " << k;
     }
     for (std::size_t k = 0; k < h.levels.size(); ++k) {
         const Level& level = h.levels[k];
-        for (Index r = 0; r < level.odd.rows(); ++r) {
-            const Index p = level.coarse + r;
+        std::size_t set = 0;
+        for (Index r = level.odd.begin; r < level.odd.end; ++r) {
+            const Index p = h.odd.vertex(r);
+            while (level.set(set).end <= r) ++set;
             if (p % stride != 0) continue;
-            const auto next_set = std::upper_bound(level.sets.begin(), level.sets.end(), r);
-            const Index begin = level.coarse + *(next_set - 1), end = level.coarse + *next_set;
+            const Index begin = h.odd.vertex(level.set(set).begin), end = h.odd.vertex(level.set(set).end);
             // The mesh that the set was removed from. Of it, flaps in the same set are left out of the stored row, but
             // along the boundary the next but one takes their place.
             const Rings then = rings_with_flaps(mesh_of_prefix(h, mesh, end));
-            Row stored = plain_row(level.odd, r), now = plain_row(then, p);
+            Row stored = plain_row(h.odd, r), now = plain_row(then, p);
             for (auto& [link, flap] : now.flap) {
                 if (flap >= begin && now.kind == RingKind::open) flap = next_on_boundary(then, link.first, flap);
                 if (flap < begin) continue;
@@ -178,7 +189,7 @@ inline void expect_normals(const Hierarchy& h, const Mesh& mesh, double limit_de
         }
     };
     for (const Level& level : h.levels)
-        if (level.independent() && level.odd.rows() > 1)
+        if (level.independent() && level.odd.size() > 1)
             compare(level.fine, level.coarse);
         else
             for (Index p = level.coarse; p < level.fine; ++p)
@@ -187,22 +198,23 @@ inline void expect_normals(const Hierarchy& h, const Mesh& mesh, double limit_de
 
 /// An edge is marked at both ends or at neither, on every level that stores all its rings.
 inline void expect_marks_agree(const Hierarchy& h) {
-    const auto agree = [](std::initializer_list<const Rings*> parts, std::size_t level) {
+    const auto agree = [&](const Rings& all, RowRange odd, std::size_t level) {
         std::map<std::pair<Index, Index>, bool> mark;
-        for (const Rings* rings : parts)
-            for (Index r = 0; r < rings->rows(); ++r)
-                for (const auto& [w, marked] : row_of(*rings, r).feature) {
-                    const auto at = mark.insert({std::minmax(rings->vertex(r), w), marked}).first;
-                    ASSERT_EQ(at->second, marked) << "edge " << rings->vertex(r) << ' ' << w << ", level " << level;
+        const auto take = [&](const Rings& rings, RowRange rows) {
+            for (Index r = rows.begin; r < rows.end; ++r)
+                for (const auto& [w, marked] : row_of(rings, r).feature) {
+                    const auto at = mark.insert({std::minmax(rings.vertex(r), w), marked}).first;
+                    ASSERT_EQ(at->second, marked) << "edge " << rings.vertex(r) << ' ' << w << ", level " << level;
                 }
+        };
+        take(all, {0, all.rows()});
+        take(h.odd, odd);
     };
     for (std::size_t k = 0; k < h.levels.size(); ++k) {
-        if (h.levels[k].independent() && h.levels[k].even.rows() == h.levels[k].coarse)
-            agree({&h.levels[k].even, &h.levels[k].odd}, k);
-        else
-            agree({&h.levels[k].even}, k);
+        const bool whole = h.levels[k].independent() && h.even[k].rows() == h.levels[k].coarse;
+        agree(h.even[k], whole ? h.levels[k].odd : RowRange(), k);
     }
-    agree({&h.base}, h.levels.size());
+    agree(h.base, {}, h.levels.size());
 }
 
 inline void expect_hierarchy(const Hierarchy& h, const Mesh& mesh, const HierarchyOptions& options, Index stride) {

@@ -53,12 +53,12 @@ Hierarchy star_hierarchy(Index n) {
     h.size = {n + 1, n};
     Level level;
     level.fine = n + 1, level.coarse = n;
-    level.odd.first = n;
-    level.odd.offset = {0, n};
-    level.odd.kind = {RingKind::closed};
-    for (Index j = 0; j < n; ++j) level.odd.neighbor.push_back(j);
-    level.sets = {0, 1};
-    h.levels.push_back(std::move(level));
+    level.odd = {0, 1};
+    h.levels.push_back(level);
+    h.odd.first = n;
+    h.odd.offset = {0, n};
+    h.odd.kind = {RingKind::closed};
+    for (Index j = 0; j < n; ++j) h.odd.neighbor.push_back(j);
     h.base.offset.assign(n + 1, 0);
     h.base.kind.assign(n, RingKind::closed);
     return h;
@@ -74,29 +74,28 @@ TEST(RingUpdate, KeepsTheMeanOfRingAndVertex) {
         Array<double> value(h.vertices());
         for (double& x : value) x = random.uniform(-1, 1);
         const auto at = [&](Index place) { return &value[place]; };
-        for (const Level& level : h.levels)
-            for (Index r = level.odd.rows(); r-- > 0;) {
-                const Neighbours ring(level.odd, r, part);
-                const auto mean = [&] {
-                    double sum = 0;
-                    for (Index j = 0; j < ring.size; ++j) sum += value[ring.vertex[j]];
-                    return sum / ring.size;
-                };
-                const double v = value[level.odd.vertex(r)], expected = (ring.size * mean() + v) / (ring.size + 1);
-                const Array<double> before = value;
-                ring_update::update(level.odd, r, part, 1, false, at);
-                if (ring.moving == 0) {
-                    EXPECT_EQ(value, before);
-                    continue;
-                }
-                EXPECT_NEAR(mean(), expected, 1e-15 * (2 + ring.size));
-                const Array<double> after = value;
-                ring_update::update(level.odd, r, part, 1, true, at);
-                for (Index j = 0; j < ring.size; ++j)
-                    EXPECT_NEAR(value[ring.vertex[j]], before[ring.vertex[j]], 1e-15 * (2 + ring.size));
-                value = after;
-                ++updated, curves += ring.own == Part::curve;
+        for (Index r = h.odd.rows(); r-- > 0;) {
+            const Neighbours ring(h.odd, r, part);
+            const auto mean = [&] {
+                double sum = 0;
+                for (Index j = 0; j < ring.size; ++j) sum += value[ring.vertex[j]];
+                return sum / ring.size;
+            };
+            const double v = value[h.odd.vertex(r)], expected = (ring.size * mean() + v) / (ring.size + 1);
+            const Array<double> before = value;
+            ring_update::update(h.odd, r, part, 1, false, at);
+            if (ring.moving == 0) {
+                EXPECT_EQ(value, before);
+                continue;
             }
+            EXPECT_NEAR(mean(), expected, 1e-15 * (2 + ring.size));
+            const Array<double> after = value;
+            ring_update::update(h.odd, r, part, 1, true, at);
+            for (Index j = 0; j < ring.size; ++j)
+                EXPECT_NEAR(value[ring.vertex[j]], before[ring.vertex[j]], 1e-15 * (2 + ring.size));
+            value = after;
+            ++updated, curves += ring.own == Part::curve;
+        }
     });
     EXPECT_GT(updated, 10000);
     EXPECT_GT(curves, 500);
@@ -114,39 +113,39 @@ TEST(RingUpdate, CurvesAndCornersKeepToThemselves) {
                 EXPECT_NE(part[p], Part::surface);
             }
         }
-        for (const Level& level : h.levels)
-            for (Index r = 0; r < level.odd.rows(); ++r) {
-                EXPECT_EQ(part[level.odd.vertex(r)] == Part::curve,
-                          level.odd.kind[r] == RingKind::open ||
-                              (!level.odd.feature.empty() &&
-                               std::count(level.odd.feature.begin() + level.odd.offset[r],
-                                          level.odd.feature.begin() + level.odd.offset[r + 1], 1) == 2));
-                EXPECT_TRUE(part[level.odd.vertex(r)] != Part::fixed || Neighbours(level.odd, r, part).moving == 0);
-            }
+        for (Index r = 0; r < h.odd.rows(); ++r) {
+            EXPECT_EQ(part[h.odd.vertex(r)] == Part::curve,
+                      h.odd.kind[r] == RingKind::open ||
+                          (!h.odd.feature.empty() && std::count(h.odd.feature.begin() + h.odd.offset[r],
+                                                                h.odd.feature.begin() + h.odd.offset[r + 1], 1) == 2));
+            EXPECT_TRUE(part[h.odd.vertex(r)] != Part::fixed || Neighbours(h.odd, r, part).moving == 0);
+        }
     });
 }
 
 TEST(RingUpdate, RowsOfABatchDoNotMeet) {
     for_hierarchies([&](const Hierarchy& h) {
-        for (const Level& level : h.levels) {
-            const Rings& odd = level.odd;
-            const Batches batches = ring_update::batches_of(level);
-            std::vector<Index> seen(odd.rows(), 0);
+        const Rings& odd = h.odd;
+        for (std::size_t k = 0; k < h.levels.size(); ++k) {
+            const Level& level = h.levels[k];
+            const Batches batches = ring_update::batches_of(h, k);
+            std::vector<Index> seen(level.odd.size(), 0);
             Array<Index> writer(level.fine, -1);
             ASSERT_EQ(batches.bounds.front(), 0);
-            ASSERT_EQ(batches.bounds.back(), odd.rows());
+            ASSERT_EQ(batches.bounds.back(), level.odd.size());
             std::size_t set = 0;
             for (std::size_t b = 0; b + 1 < batches.bounds.size(); ++b) {
                 ASSERT_LT(batches.bounds[b], batches.bounds[b + 1]);
-                while (level.sets[set + 1] <= batches.bounds[b]) ++set;
-                EXPECT_LE(batches.bounds[b + 1], level.sets[set + 1]) << "batches are parts of sets";
+                while (level.set(set).end <= level.odd.begin + batches.bounds[b]) ++set;
+                EXPECT_LE(level.odd.begin + batches.bounds[b + 1], level.set(set).end) << "batches are parts of sets";
                 std::fill(writer.begin(), writer.end(), -1);
                 const auto for_rows = [&](const auto& take) {
-                    for (Index i = batches.bounds[b]; i < batches.bounds[b + 1]; ++i) take(batches.row(i));
+                    for (Index i = batches.bounds[b]; i < batches.bounds[b + 1]; ++i)
+                        take(level.odd.begin + batches.row(i));
                 };
                 for_rows([&](Index r) {
-                    ++seen[r];
-                    EXPECT_TRUE(r >= level.sets[set] && r < level.sets[set + 1]);
+                    ++seen[r - level.odd.begin];
+                    EXPECT_TRUE(r >= level.set(set).begin && r < level.set(set).end);
                     for (Index k = odd.offset[r]; k < odd.offset[r + 1]; ++k) {
                         EXPECT_EQ(writer[odd.neighbor[k]], -1);
                         writer[odd.neighbor[k]] = r;
@@ -158,20 +157,34 @@ TEST(RingUpdate, RowsOfABatchDoNotMeet) {
                         EXPECT_TRUE(writer[odd.flap[k]] == -1 || writer[odd.flap[k]] == r);
                 });
             }
-            EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), odd.rows());
+            EXPECT_EQ(std::count(seen.begin(), seen.end(), 1), level.odd.size());
         }
     });
 }
 
 TEST(RingUpdate, BatchesAreFew) {
     const Hierarchy h = hierarchy_of(shapes::scan(20000));
-    EXPECT_LE(ring_update::batches_of(h.levels[0]).bounds.size(), 16U);
+    EXPECT_LE(ring_update::batches_of(h, 0).bounds.size(), 16U);
     // The hub of a fan is in every ring: one row after the other.
     HierarchyOptions options;
     options.base_vertices = 4;
     const Hierarchy fan = hierarchy_of(shapes::fan(300), options);
-    for (const Level& level : fan.levels)
-        EXPECT_EQ(ring_update::batches_of(level).bounds.size(), static_cast<std::size_t>(level.odd.rows()) + 1);
+    for (std::size_t k = 0; k < fan.levels.size(); ++k)
+        EXPECT_EQ(ring_update::batches_of(fan, k).bounds.size(),
+                  static_cast<std::size_t>(fan.levels[k].odd.size()) + 1);
+}
+
+// docs/wavelets.md: rings and weights are in tables of all levels, so that a level for each vertex is affordable.
+TEST(Szczesna, ALevelForEachVertexTakesFewBytes) {
+    HierarchyOptions options;
+    options.grouping = Grouping::sequential;
+    options.even_rings = false;
+    const Hierarchy h = hierarchy_of(shapes::scan(5000), options);
+    ASSERT_GT(h.levels.size(), 4000U);
+    const auto scheme = make_scheme(h, szczesna(Operator::second_difference_flaps));
+    const std::size_t details = bytes(scheme->analyse(field_of(h.positions)));
+    EXPECT_LT(bytes(h) / h.vertices(), 150U);
+    EXPECT_LT((bytes(h) + scheme->bytes() + details) / h.vertices(), 420U);
 }
 
 // One level, a ring of valence 4 or 6: what the columns of analysis and synthesis are (eq. 17 to 22).

@@ -79,7 +79,7 @@ TEST(NoiseGains, AreWhatNoiseMeasures) {
                 // of a level no more are independent than vertices go.
                 Index all = 0;
                 for (const Subband& band : c.level[k]) all += band.rows();
-                const double share = std::min(1.0, 1.0 * pyramid.hierarchy().levels[k].odd.rows() / all);
+                const double share = std::min(1.0, 1.0 * pyramid.hierarchy().levels[k].odd.size() / all);
                 EXPECT_NEAR(gains[k][b] / rms({values.begin(), values.end()}), 1,
                             3 / std::sqrt(2 * share * c.level[k][b].rows()));
             }

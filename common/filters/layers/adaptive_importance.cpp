@@ -29,11 +29,14 @@ std::vector<double> quadric_details(const Layer& layer, const Hierarchy& h, Crit
     Positions at(n);
     parallel_for(n, [&](Index p) { at[p] = (h.positions[p] - h.positions[0]) * scale; });
     std::vector<Quadric> q(n);
-    for (const Rings* rings : {&h.levels[0].even, &h.levels[0].odd})
-        parallel_for(rings->rows(), [&](Index r) {
-            q[rings->vertex(r)] =
-                collapse::vertex_quadric(rings->vertex(r), collapse::ring_of(*rings, r), at, boundary_weight);
+    const auto take = [&](const Rings& rings, RowRange rows) {
+        parallel_for(rows.size(), [&](Index i) {
+            const Index r = rows.begin + i, p = rings.vertex(r);
+            q[p] = collapse::vertex_quadric(p, collapse::ring_of(rings, r), at, boundary_weight);
         });
+    };
+    take(h.even[0], {0, h.even[0].rows()});
+    take(h.odd, h.levels[0].odd);
     double weight = 0;
     for (const Quadric& quadric : q) weight += quadric.weight();
     const double average = weight / std::max<Index>(1, n - h.isolated);
@@ -52,18 +55,19 @@ std::vector<double> quadric_details(const Layer& layer, const Hierarchy& h, Crit
 
 /// The row that predicts a removed vertex.
 struct Prediction {
-    const Rings& rings;
-    const RingWeights& weights;
-    Index row, parent;
+    Star star;
+    const double* weight;
+    const double* flap_weight;  ///< null: the operator does not use flaps
+    Index parent;
     bool kept;  ///< by its parent alone
 
     /// Calls term(place, weight).
     template <class Term>
     void each(const Term& term) const {
         if (kept) return term(parent, 1.0);
-        for (Index k = rings.offset[row]; k < rings.offset[row + 1]; ++k) {
-            term(rings.neighbor[k], weights.weight[k]);
-            if (!weights.flap_weight.empty()) term(rings.flap[k], weights.flap_weight[k]);
+        for (Index j = 0; j < star.size; ++j) {
+            term(star.neighbor[j], weight[j]);
+            if (flap_weight) term(star.flap[j], flap_weight[j]);
         }
     }
 };
@@ -73,15 +77,18 @@ template <class Visit>
 void for_each_prediction(const Hierarchy& h, Operator op, const Visit& visit) {
     RelaxationOptions options;
     options.op = op;
-    for (const Level& level : h.levels) {
-        const RingWeights weights = ring_weights(level.odd, h.positions, options);
-        std::vector<std::uint8_t> kept(level.odd.rows(), 0);
-        for (const Index r : weights.fixed) kept[r] = 1;
-        parallel_for(level.odd.rows(), [&](Index r) {
-            const Index place = level.odd.vertex(r);
-            visit(place, Prediction{level.odd, weights, r, h.parent[place], kept[r] != 0});
-        });
-    }
+    parallel_chunks(h.odd.rows(), 512, [&](Index begin, Index end) {
+        RowRelaxation relaxation(options);
+        std::vector<double> weight, flap_weight;
+        for (Index r = begin; r < end; ++r) {
+            const Star s = star(h.odd, r);
+            weight.resize(s.size);
+            flap_weight.resize(s.size);
+            double* const flaps = uses_flaps(op) ? flap_weight.data() : nullptr;
+            const bool kept = !relaxation.row(s, h.positions, weight.data(), flaps);
+            visit(s.vertex, Prediction{s, weight.data(), flaps, h.parent[s.vertex], kept});
+        }
+    });
 }
 
 /// Lengths of the details of a field over places: f - R f where the vertex is removed.

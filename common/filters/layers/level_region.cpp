@@ -43,10 +43,8 @@ std::vector<double> distance_from_selection(const Layer& layer) {
 double usual_edge(const Hierarchy& h, const Positions& input) {
     Mean mean;
     if (!h.levels.empty())
-        for (Index r = 0; r < h.levels[0].odd.rows(); ++r) {
-            const Index place = h.levels[0].odd.vertex(r);
+        for (Index place = h.levels[0].coarse; place < h.levels[0].fine; ++place)
             mean.add((input[h.order[place]] - input[h.order[h.parent[place]]]).norm());
-        }
     return mean.value() > 0 ? mean.value() : 1;
 }
 

@@ -58,7 +58,7 @@ Cut automatic_level(const Hierarchy& h, bool whole_levels) {
     for (std::size_t k = 0; k < h.size.size(); ++k) consider(k, h.size[k]);
     if (whole_levels || (share(best.count) >= 0.2 && share(best.count) <= 1 / 3.0)) return best;
     for (std::size_t k = 0; k < h.levels.size(); ++k)
-        for (const Index set : h.levels[k].sets) consider(k, h.levels[k].coarse + set);
+        for (const Index row : h.levels[k].cuts) consider(k, h.odd.vertex(row));
     return best;
 }
 
