@@ -25,11 +25,14 @@ public:
 
     /// `steps` pairs of one step inwards and one outwards, like Taubin's (1995) but of the same length, 0.5: long waves
     /// are kept and not amplified, 1 - k^2 / 4 for each pair where k is the frequency (eigenvalue of -L).
+    /// @param h  #V by 1, 2 or 3: height, noise, other noise
     void smooth(std::vector<double>& h, int steps) const;
 
 private:
-    using Channels = std::array<double, 3>;
-    Channels neighbours_of(const std::vector<double>& h, Index v) const;  ///< weighted sum
+    template <int width>
+    std::array<double, width> neighbours_of(const std::vector<double>& h, Index v) const;  ///< weighted sum
+    template <int width>
+    void smooth_channels(std::vector<double>& h, int steps) const;
     std::vector<double> detail(const std::vector<double>& h, double constant) const;
 
     const Neighbours& near_;

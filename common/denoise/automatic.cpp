@@ -26,8 +26,8 @@ constexpr int spike_steps = 3;    ///< of guided normals, for what impulses met:
 constexpr double mostly = 0.5;    ///< weight of the normal field that speaks for guided normals
 constexpr double sharply = 0.65;  ///< weight of what keeps creases from which on it is alone
 constexpr double farthest = 4;    ///< deviations: Gaussian noise moves one vertex in 16,000 farther
-constexpr double certain_if_varying = 0.8;  ///< share of the square of noise that varies
-constexpr double small_weight = 0.04;       ///< candidates with less than this are left out
+constexpr double certain_if_varying = 0.8;                         ///< share of the square of noise that varies
+constexpr double small_weight = 0.04, small_weight_if_slow = 0.1;  ///< candidates with less are left out
 
 using Tick = std::function<void(double, const char*)>;
 
@@ -92,6 +92,7 @@ struct Assumed {
     double certain = 1;             ///< share of the variance that there is at least
     double white = 1;               ///< see SurfaceNoise
     bool stairs = false;            ///< flat parts and creases are noise
+    bool large = false;             ///< the mesh: see drop_small()
     int normal_steps = 3;           ///< see normal_steps()
 };
 
@@ -104,10 +105,14 @@ struct Choice {
 };
 
 /// Weights so small that their candidates are not worth making go to the others.
-void drop_small(Eigen::VectorXd& t) {
+/// @param large  the mesh: normal fields take most of the time
+void drop_small(Eigen::VectorXd& t, bool large) {
+    const std::vector<Candidate> all = all_candidates();
     const double before = t.sum();
-    for (Eigen::Index k = 0; k < t.size(); ++k)
-        if (t[k] < small_weight) t[k] = 0;
+    for (Eigen::Index k = 0; k < t.size(); ++k) {
+        const bool slow = large && all[static_cast<std::size_t>(k)].family == Family::normal_field;
+        if (t[k] < (slow ? small_weight_if_slow : small_weight)) t[k] = 0;
+    }
     if (t.sum() > 0) t *= before / t.sum();
 }
 
@@ -142,7 +147,8 @@ double sharp_share(const Eigen::VectorXd& t) {
 /// Least risk of the normals, as long as the distances gain, too: a third of the noise, or half of what they could.
 /// Where most speaks for what keeps creases, nothing that rounds them is mixed in: squares make much of few vertices.
 /// @param stairs  what keeps creases is no candidate
-Eigen::VectorXd weights_of(const Risks& r, bool stairs) {
+/// @param large   see drop_small()
+Eigen::VectorXd weights_of(const Risks& r, bool stairs, bool large) {
     const double half = (r.heights.constant + r.heights.at(least_risk(r.heights))) / 2;
     const double limit = std::max(half, 0.7 * r.heights.constant);
     Eigen::VectorXd t;
@@ -155,7 +161,7 @@ Eigen::VectorXd weights_of(const Risks& r, bool stairs) {
                            e * r.edges.quadratic + h * r.heights.quadratic};
         t = least_risk_of(both, stairs ? smooth : all);
         if (sharp_share(t) > sharply) t = least_risk_of(both, sharp);
-        drop_small(t);
+        drop_small(t, large);
         if (r.heights.at(t) <= limit) break;
     }
     return t;
@@ -194,7 +200,7 @@ struct Tried {
 Choice choice_of(const Tried& tried, const Assumed& noise, const std::vector<std::uint8_t>& core) {
     const Risks r = risks(tried.near, tried.responses, noise.deviation, tried.probe, core);
     Choice choice;
-    choice.weights = weights_of(r, noise.stairs);
+    choice.weights = weights_of(r, noise.stairs, noise.large);
     const double removed = white_share_removed(tried.surface, tried.near, tried.responses, choice.weights, core);
     const double certain = noise.certain * std::max(noise.white, removed) / (noise.factor * noise.factor);
     choice.safe = std::min(1.0, 2 * certain);
@@ -436,13 +442,25 @@ struct Plan {
     WithinSurface within;
 };
 
+/// Of large meshes the blend that removes noise within the surface is found on patches; faces are turned back anywhere.
+WithinSurface within_of(const Faces& faces, const Positions& positions, const Neighbours& near,
+                        const SurfaceNoise& noise, double edge) {
+    if (near.rows() <= whole_up_to) return relax_within_surface(faces, positions, near, noise, edge);
+    const Sample sample = patches_of(faces, positions, near, fast_patches, fast_size);
+    const Neighbours sample_near =
+        neighbours(sample.faces, vertex_faces(sample.faces, static_cast<Index>(sample.positions.size())));
+    WithinSurface there = relax_within_surface(sample.faces, sample.positions, sample_near, noise, edge);
+    there.turned = true;
+    return relax_within_surface(faces, positions, near, noise, edge, &there);
+}
+
 Plan plan_of(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
              const std::optional<double>& step, double edge, const AutomaticOptions& options, const Tick& tick) {
     Plan plan{measured(faces, positions, at, near, step, edge, options, tick), {}};
     if (!plan.measured.is_certain(edge)) return plan;
     tick(0.2, "Looking for noise within the surface");
     const Measured& m = plan.measured;
-    plan.within = relax_within_surface(faces, m.start, near, m.within(options.strength), edge);
+    plan.within = within_of(faces, m.start, near, m.within(options.strength), edge);
     return plan;
 }
 
@@ -498,6 +516,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     assumed.certain = found.certain;
     assumed.white = found.noise.white;
     assumed.stairs = found.voxels;
+    assumed.large = count > whole_up_to;
     assumed.factor = allowance(deviation / edge, count) * (found.rounded ? 1 + terraces * deviation / edge : 1);
     assumed.normal_steps = normal_steps(deviation / edge);
     assumed.deviation = found.deviation;

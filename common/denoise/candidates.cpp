@@ -19,16 +19,6 @@ constexpr double field_push = 0.1, guided_push = 0.4;
 constexpr double normal_rounding = 1e-4;  ///< differences of normals that coordinates in single precision make
 constexpr int fit_steps = 8;              ///< more would follow the normals further and lose volume
 
-/// Move and response of a low pass: its first two channels.
-Response of_low_pass(const std::vector<double>& low) {
-    Response out(low.size() / 3 * 2);
-    for (std::size_t i = 0; i < low.size() / 3; ++i) {
-        out[2 * i] = low[3 * i];
-        out[2 * i + 1] = low[3 * i + 1];
-    }
-    return out;
-}
-
 }  // namespace
 
 std::vector<Candidate> all_candidates() {
@@ -65,40 +55,61 @@ CandidateMaker::CandidateMaker(const Faces& faces, const Positions& positions, c
     parallel_for(near.rows(), [&](Index v) { probe_[v] = deviation[v] * gaussian(v, 7); });
 }
 
-CandidateMaker::LowPasses CandidateMaker::low_passes(Smoother smoother, std::size_t levels) const {
-    if (smoother == Smoother::spatial) return spatial(levels);
-    return along_normals(smoother == Smoother::cotangent ? weight_ : std::vector<double>(), levels);
+Response CandidateMaker::of_low_pass(const std::vector<double>& low) const {
+    const std::size_t count = probe_.size(), width = low.size() / count;
+    Response out(2 * count, 0);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t c = 0; c < (width == 3 ? 2 : 1); ++c) out[2 * i + c] = low[width * i + c];
+    return out;
 }
 
+CandidateMaker::LowPasses CandidateMaker::low_passes(Smoother smoother, std::size_t levels, Channels channels) const {
+    if (smoother != Smoother::spatial)
+        return along_normals(smoother == Smoother::cotangent ? weight_ : std::vector<double>(), levels, channels);
+    if (channels == Channels::surface) return spatial<1>(levels);
+    return channels == Channels::surface_noise ? spatial<2>(levels) : spatial<3>(levels);
+}
+
+std::vector<double> CandidateMaker::samples(Channels channels) const {
+    const std::size_t width = static_cast<std::size_t>(channels);
+    std::vector<double> h(width * probe_.size(), 0);
+    if (channels == Channels::surface) return h;
+    parallel_for(near_.rows(), [&](Index v) {
+        const std::size_t i = width * static_cast<std::size_t>(v);
+        if (width == 3) h[i + 1] = probe_[v];
+        h[i + width - 1] = deviation_[v] * gaussian(v, 8);
+    });
+    return h;
+}
+
+template <int channels>
 CandidateMaker::LowPasses CandidateMaker::spatial(std::size_t levels) const {
-    Array<Eigen::Matrix3d> start(probe_.size());
+    const std::vector<double> height = samples(static_cast<Channels>(channels));
+    Array<Columns<channels>> start(probe_.size());
     parallel_for(near_.rows(), [&](Index v) {
         start[v].col(0) = positions_[v];
-        start[v].col(1) = probe_[v] * normal_[v];
-        start[v].col(2) = deviation_[v] * gaussian(v, 8) * normal_[v];
+        for (int c = 1; c < channels; ++c)
+            start[v].col(c) = height[channels * static_cast<std::size_t>(v) + c] * normal_[v];
     });
-    Array<Eigen::Matrix3d> p = start;
-    LowPasses low(levels, std::vector<double>(3 * probe_.size()));
+    Array<Columns<channels>> p = start;
+    LowPasses low(levels, std::vector<double>(channels * probe_.size()));
     int done = 0;
     for (std::size_t level = 0; level < levels; ++level) {
-        p = taubin(near_, std::move(p), low_pass_steps[level] - done);
+        p = smoothed_fields<channels>(near_, std::move(p), low_pass_steps[level] - done);
         done = low_pass_steps[level];
         parallel_for(near_.rows(), [&](Index v) {
-            for (int c = 0; c < 3; ++c)
-                low[level][3 * static_cast<std::size_t>(v) + c] = normal_[v].dot(p[v].col(c) - start[v].col(c));
+            for (int c = 0; c < channels; ++c)
+                low[level][channels * static_cast<std::size_t>(v) + c] = normal_[v].dot(p[v].col(c) - start[v].col(c));
         });
     }
     return low;
 }
 
-CandidateMaker::LowPasses CandidateMaker::along_normals(const std::vector<double>& weight, std::size_t levels) const {
+CandidateMaker::LowPasses CandidateMaker::along_normals(const std::vector<double>& weight, std::size_t levels,
+                                                        Channels channels) const {
     const AlongNormals surface(near_, positions_, normal_, weight);
     LowPasses low;
-    std::vector<double> start(3 * probe_.size(), 0);
-    for (std::size_t i = 0; i < probe_.size(); ++i) {
-        start[3 * i + 1] = probe_[i];
-        start[3 * i + 2] = deviation_[i] * gaussian(static_cast<Index>(i), 8);
-    }
+    const std::vector<double> start = samples(channels);
     std::vector<double> h = start;
     int done = 0;
     for (std::size_t level = 0; level < levels; ++level) {
@@ -111,40 +122,44 @@ CandidateMaker::LowPasses CandidateMaker::along_normals(const std::vector<double
 }
 
 std::vector<CandidateMaker::Band> CandidateMaker::bands(const LowPasses& low) const {
-    const std::size_t count = probe_.size();
+    const std::size_t count = probe_.size(), width = low[0].size() / count;
     std::vector<Band> all(low.size());
     for (std::size_t level = 0; level < low.size(); ++level) {
         Band& band = all[level];
-        band.detail.resize(3 * count);
-        band.energy.resize(3 * count);
+        band.detail.resize(width * count);
+        band.energy.resize(width * count);
         band.noise.resize(count);
         parallel_for(near_.rows(), [&](Index v) {
-            const std::size_t i = 3 * static_cast<std::size_t>(v);
-            for (int c = 0; c < 3; ++c)
-                band.detail[i + c] = (level > 0 ? low[level - 1][i + c] : 0) - low[level][i + c];
-            const double d = band.detail[i], b = band.detail[i + 1], other = band.detail[i + 2];
+            const std::size_t i = width * static_cast<std::size_t>(v), noise = i + width - 1;
+            for (std::size_t c = i; c <= noise; ++c)
+                band.detail[c] = (level > 0 ? low[level - 1][c] : 0) - low[level][c];
+            const double d = band.detail[i], other = band.detail[noise];
             band.energy[i] = d * d;
-            band.energy[i + 1] = d * b;
-            band.energy[i + 2] = other * other;  // not b's, or the gains would know the probe
+            if (width == 3) band.energy[i + 1] = d * band.detail[i + 1];
+            band.energy[noise] = other * other;  // not the probe's, or the gains would know it
         });
-        average(near_, band.energy, 3, steps_of_level[level]);
-        parallel_for(near_.rows(), [&](Index v) { band.noise[v] = band.energy[3 * static_cast<std::size_t>(v) + 2]; });
+        average(near_, band.energy, static_cast<int>(width), steps_of_level[level]);
+        parallel_for(near_.rows(),
+                     [&](Index v) { band.noise[v] = band.energy[width * static_cast<std::size_t>(v) + width - 1]; });
         average(near_, band.noise, 1, noise_steps);
     }
     return all;
 }
 
 Response CandidateMaker::wiener(const LowPasses& low, const std::vector<Band>& bands, double severity) const {
+    const std::size_t width = low[0].size() / probe_.size();
     Response out = of_low_pass(low.back());
     parallel_for(near_.rows(), [&](Index v) {
         for (const Band& band : bands) {
             // The gain 1 - noise / energy, and how it answers the probe: energy answers with twice the mean of d b.
-            const double* detail = band.detail.data() + 3 * static_cast<std::size_t>(v);
-            const double* mean = band.energy.data() + 3 * static_cast<std::size_t>(v);
+            const double* detail = band.detail.data() + width * static_cast<std::size_t>(v);
+            const double* mean = band.energy.data() + width * static_cast<std::size_t>(v);
             const double energy = mean[0], noise = severity * band.noise[v];
             if (!(energy > noise)) continue;
-            const double gain = 1 - noise / energy, answer = 2 * noise * mean[1] / (energy * energy);
+            const double gain = 1 - noise / energy;
             out[2 * v] += gain * detail[0];
+            if (width < 3) continue;
+            const double answer = 2 * noise * mean[1] / (energy * energy);
             out[2 * v + 1] += gain * detail[1] + answer * detail[0];
         }
     });
@@ -159,6 +174,7 @@ const FaceGraph& CandidateMaker::graph() const {
 Positions CandidateMaker::field(const Positions& from, double strength, const std::function<void(double)>& tick) const {
     NormalFieldOptions options;
     options.strength = strength;
+    options.statistics = false;
     NormalFieldStats stats;
     const Array<Vec3> normals = denoise_normals(faces_, from, graph(), options, stats, tick);
     return stats.noise > normal_rounding ? fit_vertices(faces_, from, at_, normals, fit_steps) : from;
@@ -192,7 +208,7 @@ CandidateMaker::Responses CandidateMaker::responses(const std::function<void(dou
     std::vector<Response>& all = out.all;
     std::vector<Response> wieners;
     for (const Smoother smoother : smoothers) {
-        const LowPasses low = low_passes(smoother, low_pass_steps.size());
+        const LowPasses low = low_passes(smoother, low_pass_steps.size(), Channels::surface_probe_noise);
         tick(0.05 + 0.1 * static_cast<double>(smoother));
         const std::vector<Band> split = bands(low);
         for (const double severity : wiener_severity) wieners.push_back(wiener(low, split, severity));
@@ -236,7 +252,7 @@ void CandidateMaker::add_heights(const LocalWeights& weights, Smoother smoother,
     }
     if (shrunk) levels = low_pass_steps.size();
     if (levels == 0) return;
-    const LowPasses low = low_passes(smoother, levels);
+    const LowPasses low = low_passes(smoother, levels, shrunk ? Channels::surface_noise : Channels::surface);
     const std::vector<Band> split = shrunk ? bands(low) : std::vector<Band>();
     const auto add = [&](std::size_t k, const Response& moves) {
         for (std::size_t v = 0; v < height.size(); ++v) height[v] += weights.at(k, v) * moves[2 * v];

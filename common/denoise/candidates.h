@@ -84,20 +84,27 @@ public:
     Positions blend(const LocalWeights& weights, const std::function<void(double)>& tick) const;
 
 private:
-    using LowPasses = std::vector<std::vector<double>>;  ///< #V by 3 each: moves of the surface and of two noises
+    /// What is smoothed: the surface; for gains of bands also a sample of noise, and how both answer the probe.
+    enum class Channels { surface = 1, surface_noise = 2, surface_probe_noise = 3 };
+    using LowPasses = std::vector<std::vector<double>>;  ///< moves, #V by channels each
     /// @param levels  the first so many of low_pass_steps
-    LowPasses low_passes(Smoother smoother, std::size_t levels) const;
-    LowPasses along_normals(const std::vector<double>& weight, std::size_t levels) const;
+    LowPasses low_passes(Smoother smoother, std::size_t levels, Channels channels) const;
+    LowPasses along_normals(const std::vector<double>& weight, std::size_t levels, Channels channels) const;
+    template <int channels>
     LowPasses spatial(std::size_t levels) const;
+    std::vector<double> samples(Channels channels) const;  ///< heights that the low passes start with
+    Response of_low_pass(const std::vector<double>& low) const;
     /// Adds the linear candidates and those made of them; `height` #V.
     void add_heights(const LocalWeights& weights, Smoother smoother, std::vector<double>& height) const;
-    /// What lies between two low passes, of all three channels.
+    /// What lies between two low passes, of two or three channels.
     struct Band {
-        std::vector<double> detail;  ///< #V by 3
-        std::vector<double> energy;  ///< #V by 3, local means: of the surface, its product with the probe, of noise
-        std::vector<double> noise;   ///< #V: the last, averaged over more
+        std::vector<double> detail;  ///< #V by channels
+        /// #V by channels, local means: of the surface, if there is a probe its product with that, of noise
+        std::vector<double> energy;
+        std::vector<double> noise;  ///< #V: the last, averaged over more
     };
     std::vector<Band> bands(const LowPasses& low) const;
+    /// Without a probe there is no answer to it.
     Response wiener(const LowPasses& low, const std::vector<Band>& bands, double severity) const;
     const FaceGraph& graph() const;
     Positions field(const Positions& from, double strength, const std::function<void(double)>& tick) const;

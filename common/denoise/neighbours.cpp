@@ -121,12 +121,17 @@ Positions taubin(const Neighbours& near, Positions positions, int steps) {
     return taubin_steps(near, std::move(positions), steps, -0.53);
 }
 
-Array<Eigen::Matrix3d> taubin(const Neighbours& near, Array<Eigen::Matrix3d> fields, int steps) {
+template <int count>
+Array<Columns<count>> smoothed_fields(const Neighbours& near, Array<Columns<count>> fields, int steps) {
     return taubin_steps(near, std::move(fields), steps, -0.5);
 }
+template Array<Columns<1>> smoothed_fields<1>(const Neighbours&, Array<Columns<1>>, int);
+template Array<Columns<2>> smoothed_fields<2>(const Neighbours&, Array<Columns<2>>, int);
+template Array<Columns<3>> smoothed_fields<3>(const Neighbours&, Array<Columns<3>>, int);
 
 void average(const Neighbours& near, std::vector<double>& values, int width, int steps) {
     if (width == 1) return averaged<1>(near, values, steps);
+    if (width == 2) return averaged<2>(near, values, steps);
     if (width == 3) return averaged<3>(near, values, steps);
     if (width == 6) return averaged<6>(near, values, steps);
     throw std::logic_error("average: there is no code for this width");

@@ -28,12 +28,16 @@ std::vector<double> cotangent_weights(const Faces& faces, const Incidence& at, c
 
 /// Taubin's low pass with equal weights (1995; 0.5 and -0.53): `steps` pairs of one step inwards and one outwards.
 Positions taubin(const Neighbours& near, Positions positions, int steps);
-/// The same with 0.5 and -0.5, as AlongNormals::smooth() does, of three fields of vectors at once, the columns: in two
+/// Fields of vectors, in columns.
+template <int count>
+using Columns = Eigen::Matrix<double, 3, count>;
+/// The same with 0.5 and -0.5, as AlongNormals::smooth() does, of one, two or three fields at once: three take two
 /// thirds of the time.
-Array<Eigen::Matrix3d> taubin(const Neighbours& near, Array<Eigen::Matrix3d> fields, int steps);
+template <int count>
+Array<Columns<count>> smoothed_fields(const Neighbours& near, Array<Columns<count>> fields, int steps);
 
 /// Replaces each value by its mean with the neighbours' values, `steps` times.
-/// @param values  #V by `width`, interleaved; width is 1, 3 or 6
+/// @param values  #V by `width`, interleaved; width is 1, 2, 3 or 6
 void average(const Neighbours& near, std::vector<double>& values, int width, int steps);
 
 /// A sample of the standard normal distribution: the same for the same place and seed.

@@ -107,8 +107,9 @@ Findings findings(const Faces& faces, const Positions& p, const Incidence& at, c
     Whiteness whiteness;
     for (int repeat = 0; repeat < repeats; ++repeat) {
         std::vector<double> h(3 * near.rows(), 0);
-        for (Index v = 0; v < near.rows(); ++v)
+        parallel_for(near.rows(), [&](Index v) {
             for (int c = 1; c < 3; ++c) h[3 * v + c] = gaussian(v, 100 + 2 * repeat + c);
+        });
         const std::vector<double> first = surface.detail(h);
         const std::vector<double> second = surface.linear_detail(first), third = surface.linear_detail(second);
         surface.smooth(h, bend_steps);
@@ -129,8 +130,9 @@ Findings findings(const Faces& faces, const Positions& p, const Incidence& at, c
     mean.white = whiteness.share();
     if (mean.axis) {
         std::vector<double> h(3 * near.rows(), 0);
-        for (Index v = 0; v < near.rows(); ++v)
+        parallel_for(near.rows(), [&](Index v) {
             for (int c = 1; c < 3; ++c) h[3 * v + c] = gaussian(v, 100 + c) * base.normal[v].dot(mean.axis->axis);
+        });
         const std::vector<double> third = surface.linear_detail(surface.linear_detail(surface.detail(h)));
         mean.peakedness_along_axis = peakedness(third, local_squares(near, third), inner);
     }
@@ -197,12 +199,12 @@ Positions detail_of(const Neighbours& near, const Positions& p) {
 Energies energies_within(const Positions& detail, const Positions& noise, const Neighbours& near,
                          const Array<Vec3>& normal) {
     std::vector<double> sizes(3 * near.rows());
-    for (Index v = 0; v < near.rows(); ++v) {
+    parallel_for(near.rows(), [&](Index v) {
         const double along = normal[v].dot(detail[v]);
         sizes[3 * v] = std::sqrt(std::max(0.0, (detail[v].squaredNorm() - along * along) / 2));
         sizes[3 * v + 1] = noise[v].x();
         sizes[3 * v + 2] = noise[v].y();
-    }
+    });
     return local_energies(near, local_squares(near, sizes), inner_vertices(near));
 }
 
@@ -214,7 +216,7 @@ void find_within_surface(const Positions& p, const Neighbours& near, const Array
     constexpr double least = 0.93, most = 1.15, even = 1.09;
     constexpr double variation = 3, by_chance = 0.12;  // of the rests' squares
     Positions noise(p.size());
-    for (Index v = 0; v < near.rows(); ++v) noise[v] = Vec3(gaussian(v, 3), gaussian(v, 4), 0);
+    parallel_for(near.rows(), [&](Index v) { noise[v] = Vec3(gaussian(v, 3), gaussian(v, 4), 0); });
     Positions detail = p;
     for (int order = 0; order < 3; ++order) {
         detail = detail_of(near, detail);

@@ -24,9 +24,9 @@ struct Bad {
     double cosine, thin;
 };
 
-Vec3 tangential(const Vec3& v, const Vec3& n) { return v - n * n.dot(v); }
+inline Vec3 tangential(const Vec3& v, const Vec3& n) { return v - n * n.dot(v); }
 
-Vec3 to_middle(const Neighbours& near, const Positions& p, Index v) {
+inline Vec3 to_middle(const Neighbours& near, const Positions& p, Index v) {
     Vec3 sum = Vec3::Zero();
     for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) sum += p[near.vertex[k]] - p[v];
     return near.size(v) > 0 ? Vec3(sum / near.size(v)) : sum;
@@ -54,12 +54,13 @@ double folded_share(const Faces& faces, const Positions& p, const Array<Vec3>& n
 Positions turned_back(const Faces& faces, Positions p, const Neighbours& near, const Array<Vec3>& normal,
                       const Bad& bad) {
     Positions next = p;
-    std::vector<std::uint8_t> moves(p.size());
+    std::vector<std::uint8_t> moves(p.size()), turn(faces.size());
     for (int step = 0; step < turning_steps; ++step) {
         std::fill(moves.begin(), moves.end(), 0);
-        for (const Face& f : faces)
-            if (is_bad(f, p, normal, bad))
-                for (const Index v : f) moves[v] = 1;
+        parallel_for(static_cast<Index>(faces.size()), [&](Index f) { turn[f] = is_bad(faces[f], p, normal, bad); });
+        for (std::size_t f = 0; f < turn.size(); ++f)
+            if (turn[f])
+                for (const Index v : faces[f]) moves[v] = 1;
         if (std::find(moves.begin(), moves.end(), 1) == moves.end()) break;
         parallel_for(near.rows(), [&](Index v) {
             next[v] = p[v];
@@ -209,10 +210,10 @@ WithinSurface relax_within_surface(const Faces& faces, const Positions& position
     if (!(deviation > 0) || nothing) return out;
     const bool weak = deviation < 0.1 * edge;
     const Array<Vec3> normal = vertex_normals(faces, taubin(near, positions, weak ? 8 : 20));
-    std::vector<double> h(3 * positions.size(), 0);
+    std::vector<double> h(positions.size(), 0);
     AlongNormals(near, positions, normal, {}).smooth(h, weak ? 5 : 15);
     Positions p = positions;
-    for (std::size_t i = 0; i < p.size(); ++i) p[i] += h[3 * i] * normal[i];
+    for (std::size_t i = 0; i < p.size(); ++i) p[i] += h[i] * normal[i];
 
     if (as_there)
         smooth_as_there(p, near, normal, *as_there, out);

@@ -24,6 +24,8 @@ constexpr std::array<int, 5> snapshot = {3, 5, 8, 12, 20};
 /// Energy of the differences of snapshots over a plane with white noise, in units of the squared median difference of
 /// neighbouring normals (measured on an irregular plane with noise of 0.3 edge lengths).
 constexpr std::array<double, 4> plane_energy = {0.0111, 0.0032, 0.0009, 0.0006};
+/// Exponent of weights from which on a neighbour does not count.
+constexpr double negligible = 40;
 /// A detail is noise unless its local energy exceeds this many times that of a plane.
 constexpr double significant = 6;
 /// Averaging steps that make an energy local.
@@ -44,46 +46,65 @@ double median_difference(const FaceGraph& graph, const Normals& n) {
     return upper_median(d);
 }
 
+/// A loop of its own, so that compilers do several at once.
+void multiply_by_falling_weights(const double* x, Index count, double* w) {
+    for (Index k = 0; k < count; ++k) w[k] *= falling_weight(x[k]);
+}
+
 /// One bilateral step. Faces without a normal stay so.
 Normals smoothed(const FaceGraph& graph, const std::vector<double>& spatial, const std::vector<double>& area,
                  const Normals& n, double tolerance) {
     const double scale = 1 / (2 * tolerance * tolerance);
     Normals out(n.size());
-    parallel_for(static_cast<Index>(n.size()), [&](Index f) {
-        const Vec3 own = n[f];
-        if (own.isZero()) {
+    parallel_chunks(static_cast<Index>(n.size()), 1024, [&](Index begin, Index end) {
+        std::vector<double> exponent, weight;
+        for (Index f = begin; f < end; ++f) {
+            const Vec3 own = n[f];
             out[f] = own;
-            return;
+            if (own.isZero()) continue;
+            const Index first = graph.offset[f], count = graph.offset[f + 1] - first;
+            const Index* neighbor = graph.neighbor.data() + first;
+            exponent.resize(std::max(exponent.size(), static_cast<std::size_t>(count)));
+            weight.resize(exponent.size());
+            double *x = exponent.data(), *w = weight.data();
+            for (Index k = 0; k < count; ++k) {
+                x[k] = (own - n[neighbor[k]]).squaredNorm() * scale;
+                w[k] = x[k] < negligible ? spatial[first + k] : 0;
+                x[k] = std::min(x[k], negligible);
+            }
+            multiply_by_falling_weights(x, count, w);
+            Vec3 sum = area[f] * own;
+            for (Index k = 0; k < count; ++k) sum += w[k] * n[neighbor[k]];
+            const double length = sum.norm();
+            if (length > 0) out[f] = sum / length;
         }
-        Vec3 sum = area[f] * own;
-        for (Index k = graph.offset[f]; k < graph.offset[f + 1]; ++k) {
-            const Vec3& other = n[graph.neighbor[k]];
-            const double exponent = (own - other).squaredNorm() * scale;
-            if (exponent < 40) sum += spatial[k] * falling_weight(exponent) * other;
-        }
-        const double length = sum.norm();
-        out[f] = length > 0 ? Vec3(sum / length) : own;
     });
     return out;
 }
 
+/// Sum of the areas of each face and its neighbours.
+std::vector<double> areas_around(const FaceGraph& graph, const std::vector<double>& area) {
+    std::vector<double> around(area.size());
+    parallel_for(static_cast<Index>(area.size()), [&](Index f) {
+        around[f] = area[f];
+        for (Index k = graph.offset[f]; k < graph.offset[f + 1]; ++k) around[f] += area[graph.neighbor[k]];
+    });
+    return around;
+}
+
 /// Mean energy of the difference of two fields around each face.
-std::vector<double> local_energy(const FaceGraph& graph, const std::vector<double>& area, const Normals& a,
-                                 const Normals& b) {
+std::vector<double> local_energy(const FaceGraph& graph, const std::vector<double>& area,
+                                 const std::vector<double>& around, const Normals& a, const Normals& b) {
     const Index count = static_cast<Index>(area.size());
-    std::vector<double> energy(count), next(count);
+    std::vector<double> energy(count), weighted(count);
     parallel_for(count, [&](Index f) { energy[f] = (a[f] - b[f]).squaredNorm(); });
     for (int step = 0; step < energy_steps; ++step) {
+        parallel_for(count, [&](Index f) { weighted[f] = area[f] * energy[f]; });
         parallel_for(count, [&](Index f) {
-            double sum = area[f] * energy[f], weight = area[f];
-            for (Index k = graph.offset[f]; k < graph.offset[f + 1]; ++k) {
-                const Index h = graph.neighbor[k];
-                sum += area[h] * energy[h];
-                weight += area[h];
-            }
-            next[f] = weight > 0 ? sum / weight : energy[f];
+            double sum = weighted[f];
+            for (Index k = graph.offset[f]; k < graph.offset[f + 1]; ++k) sum += weighted[graph.neighbor[k]];
+            if (around[f] > 0) energy[f] = sum / around[f];
         });
-        energy.swap(next);
     }
     return energy;
 }
@@ -93,20 +114,33 @@ double mean_energy(const Normals& a, const Normals& b) {
         .value();
 }
 
-/// Adds to `coarse` what is significant of fine - coarser.
-void add_detail(const FaceGraph& graph, const std::vector<double>& area, const Normals& fine, const Normals& coarser,
-                double noise_energy, Normals& result, NormalFieldStats& stats) {
-    const std::vector<double> energy = local_energy(graph, area, fine, coarser);
-    const Normals before = result;
-    parallel_for(static_cast<Index>(area.size()), [&](Index f) {
-        const double kept = energy[f] > 0 ? std::max(0.0, 1 - significant * noise_energy / energy[f]) : 0;
-        result[f] += kept * (fine[f] - coarser[f]);
-    });
+/// What was added to get `result`, for the report.
+void add_statistics(const Normals& fine, const Normals& coarser, double noise_energy, const Normals& before,
+                    const Normals& result, NormalFieldStats& stats) {
     const double all = mean_energy(fine, coarser);
     stats.detail_rms.insert(stats.detail_rms.begin(), std::sqrt(all));
     stats.noise_rms.insert(stats.noise_rms.begin(), std::sqrt(noise_energy));
     const double kept = mean_energy(result, before);
     stats.share_removed.insert(stats.share_removed.begin(), all > 0 ? std::max(0.0, 1 - kept / all) : 0);
+}
+
+/// Adds to the last level what is significant of the differences of the levels.
+Normals with_details(const FaceGraph& graph, const std::vector<double>& area, const std::vector<Normals>& levels,
+                     double noise, bool statistics, NormalFieldStats& stats) {
+    const std::vector<double> around = areas_around(graph, area);
+    Normals result = levels.back();
+    for (std::size_t k = levels.size() - 1; k-- > 0;) {
+        const Normals &fine = levels[k], &coarser = levels[k + 1];
+        const double noise_energy = plane_energy[k] * noise * noise;
+        const std::vector<double> energy = local_energy(graph, area, around, fine, coarser);
+        const Normals before = statistics ? result : Normals();
+        parallel_for(static_cast<Index>(area.size()), [&](Index f) {
+            const double kept = energy[f] > 0 ? std::max(0.0, 1 - significant * noise_energy / energy[f]) : 0;
+            result[f] += kept * (fine[f] - coarser[f]);
+        });
+        if (statistics) add_statistics(fine, coarser, noise_energy, before, result, stats);
+    }
+    return result;
 }
 
 }  // namespace
@@ -125,20 +159,25 @@ Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, cons
     std::vector<Normals> levels;
     Normals n = g.normal;
     double factor = wide * options.strength;
+    const double resting = std::min(most, rest * noise);
+    bool rests = false;  // then it stays there: the factor falls, and hardly ever rises what is left
     for (int step = 1; step <= snapshot.back(); ++step, factor *= narrowing) {
         tick(static_cast<double>(step) / snapshot.back());
-        const double left = step == 1 ? stats.noise : median_difference(graph, n);
-        n = smoothed(graph, spatial, g.area, n, std::max(factor * left, std::min(most, rest * noise)));
+        double tolerance = resting;
+        if (!rests) {
+            const double left = step == 1 ? stats.noise : median_difference(graph, n);
+            tolerance = std::max(factor * left, resting);
+            rests = tolerance == resting;
+        }
+        n = smoothed(graph, spatial, g.area, n, tolerance);
         if (std::find(snapshot.begin(), snapshot.end(), step) != snapshot.end()) levels.push_back(n);
     }
-    Normals result = levels.back();
-    for (std::size_t k = levels.size() - 1; k-- > 0;)
-        add_detail(graph, g.area, levels[k], levels[k + 1], plane_energy[k] * noise * noise, result, stats);
+    Normals result = with_details(graph, g.area, levels, noise, options.statistics, stats);
     parallel_for(static_cast<Index>(result.size()), [&](Index f) {
         const double length = result[f].norm();
         if (length > 0) result[f] /= length;
     });
-    stats.left = median_difference(graph, result);
+    if (options.statistics) stats.left = median_difference(graph, result);
     return result;
 }
 
