@@ -39,7 +39,9 @@ struct HierarchyOptions {
     Index base_vertices = 100;   ///< stop here, or earlier if no collapse is allowed any more
     double normal_limit_degrees = 60;  ///< a collapse may turn no face normal by more than this, in (0, 180]
     /// Weight of the edge-length term beside the quadric: cost = (Q_v + Q_u)(p_u) + weight * area_v * |p_v - p_u|^2.
-    /// 0: quadric only (Roy); larger values keep vertices of a level evenly spaced, which sharpens bands.
+    /// 0: quadric only (Roy); larger values keep vertices of a level evenly spaced, which sharpens bands. With any, and
+    /// independent sets that are not memoryless, vertices of the boundary stay while its edges are longer than 1.5
+    /// times those from there into the surface.
     double length_weight = 0.1;
     Split split = Split::quadric;
     int seed = 0;             ///< other than 0: costs vary at random by up to half, for another hierarchy

@@ -76,17 +76,32 @@ private:
     Quadric quadric_;
 };
 
+/// True if the boundary at v is coarser than the surface beside it: it waits until that has caught up, or its details
+/// would be those of longer waves than the others of their level. (Where a scan was cut off, edges are often longer.)
+/// Only neighbours inside count: the two sides of a strip wait for nothing.
+bool boundary_runs_ahead(const State& s, Index v, const Ring& ring) {
+    if (ring.closed()) return false;
+    const auto length = [&](Index j) { return (s.positions[ring.vertex[j]] - s.positions[v]).norm(); };
+    double inner = 0;
+    int count = 0;
+    for (Index j = 1; j + 1 < ring.size; ++j)
+        if (s.rings.kind[ring.vertex[j]] == RingKind::closed) inner += length(j), ++count;
+    return count > 0 && (length(0) + length(ring.size - 1)) / 2 > 1.5 * inner / count;
+}
+
 Candidates rank_vertices(const State& s, const HierarchyOptions& options) {
     const Index n = s.rings.rows();
     Candidates c;
     c.key.resize(n);
     c.target.resize(n);
     const bool fresh = options.split == Split::quadric && options.memoryless;
+    const bool levels_are_even = options.length_weight > 0 && !options.memoryless;
     parallel_for(n, [&](Index v) {
         c.key[v] = never;
         const Ring ring = ring_of(s.rings, v);
         const Directions directions(ring);
         if (directions.none()) return;
+        if (levels_are_even && boundary_runs_ahead(s, v, ring)) return;
         double least = std::numeric_limits<double>::infinity();
         if (fresh && collapse::FreshCosts::takes(ring) && directions.all()) {
             const collapse::FreshCosts costs(v, ring, s.positions, options.length_weight);

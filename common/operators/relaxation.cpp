@@ -63,6 +63,27 @@ bool along_curve(const Star& star, const Positions& positions, Index a, Index b,
     return true;
 }
 
+/// Share of the closed star in the row of an open one, by the sum of its triangles' angles at the vertex: 0 up to 195
+/// degrees, 1 from 210 on, in between by the sine. Multiplies complex numbers: atan2 has other bits on other systems.
+double share_of_closed(const Star& star, const Positions& positions) {
+    constexpr double least = 0.25881904510252074, most = 0.5;  // sines of 15 and 30 degrees
+    const Vec3& at = positions[star.vertex];
+    double re = 1, im = 0;
+    bool reflex = false;  // the sum is more than 180 degrees
+    for (Index j = 0; j + 1 < star.size; ++j) {
+        const Vec3 a = positions[star.neighbor[j]] - at, b = positions[star.neighbor[j + 1]] - at;
+        const double x = a.dot(b), y = a.cross(b).norm(), length = std::sqrt(x * x + y * y);
+        if (!(length > 0)) continue;
+        const double turned = (re * x - im * y) / length;
+        im = (re * y + im * x) / length;
+        re = turned;
+        if (reflex && im > 0) return 1;  // more than 360
+        reflex = reflex || im < 0;
+        if (reflex && (re > 0 || -im >= most)) return 1;
+    }
+    return reflex ? std::max(0.0, (-im - least) / (most - least)) : 0;
+}
+
 /// What is used when all triangles of a star are degenerate. Scaled by the shortest edge, so that the limit of edges of
 /// no length is taken exactly: those share the weight.
 void inverse_lengths(const StarGeometry& star, double* weight) {
@@ -129,13 +150,32 @@ RowRelaxation::Curve RowRelaxation::rule(const Star& star) const {
 bool RowRelaxation::row(const Star& star, const Positions& positions, double* weight, double* flap_weight) {
     if (flap_weight != nullptr) std::fill_n(flap_weight, star.size, 0.0);
     const Curve curve = rule(star);
-    if (curve.rule != Rule::disk) {
-        std::fill_n(weight, star.size, 0.0);
-        const bool open = star.kind == RingKind::open && flap_weight != nullptr;
-        if (curve.rule == Rule::curve && !(open && along_curve(star, positions, curve.a, curve.b, weight, flap_weight)))
-            interpolate(star, positions, curve.a, curve.b, weight);
-        return curve.rule == Rule::curve;
+    if (curve.rule == Rule::disk) return disk(star, positions, weight, flap_weight);
+    std::fill_n(weight, star.size, 0.0);
+    if (curve.rule == Rule::keep) return false;
+    const bool open = star.kind == RingKind::open;
+    if (!(open && flap_weight != nullptr && along_curve(star, positions, curve.a, curve.b, weight, flap_weight)))
+        interpolate(star, positions, curve.a, curve.b, weight);
+    if (open && options_.close_holes && !has_feature(star)) close_hole(star, positions, weight, flap_weight);
+    return true;
+}
+
+void RowRelaxation::close_hole(const Star& star, const Positions& positions, double* weight, double* flap_weight) {
+    const double share = share_of_closed(star, positions);
+    if (!(share > 0)) return;
+    Star closed = star;
+    closed.kind = RingKind::closed;
+    closed.flap = nullptr;  // unknown inside
+    closed_.resize(star.size);
+    disk(closed, positions, closed_.data(), nullptr);
+    for (Index k = 0; k < star.size; ++k) {
+        weight[k] += share * (closed_[k] - weight[k]);
+        if (flap_weight != nullptr) flap_weight[k] *= 1 - share;
     }
+}
+
+/// @param flap_weight  zeros, or null: the star's flaps are unknown
+bool RowRelaxation::disk(const Star& star, const Positions& positions, double* weight, double* flap_weight) {
     if (options_.op == Operator::umbrella) {
         std::fill_n(weight, star.size, 1.0 / star.size);
         return true;
@@ -157,7 +197,7 @@ bool RowRelaxation::row(const Star& star, const Positions& positions, double* we
         found = kernels::second_difference(geometry_, star.feature, nullptr, weight);
         break;
     case Operator::second_difference_flaps:
-        found = kernels::second_difference(geometry_, star.feature, &flaps, weight);
+        found = kernels::second_difference(geometry_, star.feature, flap_weight != nullptr ? &flaps : nullptr, weight);
         break;
     case Operator::natural_neighbours:
         found = plane_.natural_neighbours(geometry_, weight);
@@ -166,7 +206,7 @@ bool RowRelaxation::row(const Star& star, const Positions& positions, double* we
         found = plane_.thin_plate(geometry_, star, nullptr, weight);
         break;
     case Operator::thin_plate_flaps:
-        found = plane_.thin_plate(geometry_, star, &flaps, weight);
+        found = plane_.thin_plate(geometry_, star, flap_weight != nullptr ? &flaps : nullptr, weight);
         break;
     case Operator::umbrella:
         break;  // done above
@@ -209,6 +249,18 @@ RingWeights ring_weights(const Rings& rings, const Positions& positions, const R
                               flaps ? result.flap_weight.data() + at : nullptr);
     });
     return result;
+}
+
+Array<double> stable_steps(const Rings& rings, const RingWeights& weights) {
+    Array<double> step(rings.rows());
+    parallel_for(rings.rows(), [&](Index r) {
+        double norm = 0;
+        for (Index k = rings.offset[r]; k < rings.offset[r + 1]; ++k) norm += std::abs(weights.weight[k]);
+        if (!weights.flap_weight.empty())
+            for (Index k = rings.offset[r]; k < rings.offset[r + 1]; ++k) norm += std::abs(weights.flap_weight[k]);
+        step[r] = norm > 1 + 1e-12 ? 2 / (1 + norm) : 1;
+    });
+    return step;
 }
 
 RowWeights row_weights(const Rings& rings, const RingWeights& weights) {

@@ -24,6 +24,10 @@
 ///   next vertices: quadratic functions of the length are reproduced, but across corners, so that round rims are.
 ///   The others interpolate linearly between the two neighbours with weights inverse to the edge lengths. The
 ///   vertex is fixed if a feature edge meets the boundary there.
+/// - Holes: where the surface's angle at a boundary vertex is more than 180 degrees, the triangle of the vertex and its
+///   two boundary neighbours lies in a hole. It counts as part of the star, which is a closed one then: predictions
+///   along the boundary alone take a small hole for a polygon far from its own mean. The two rules are blended from
+///   195 to 210 degrees (holes of 24 and 12 equal sides); features switch this off (RelaxationOptions::close_holes).
 /// - Feature edges: the second-order differences across them are left out of the sum (Guskov 1999, section 2.3). For
 ///   the other operators a vertex with exactly two feature spokes is relaxed along the crease as if it were a
 ///   boundary; with one, or more than two, it is a corner and fixed. A link edge that is a feature is given by a flap
@@ -78,6 +82,8 @@ struct RelaxationOptions {
     /// No unit, at least 1: the largest sum of the absolute weights of a row. Nonnegative rows have 1; on scans nearly
     /// all rows of any operator stay below 10, on the slivers of machined parts they reach a million.
     double largest_norm = 100;
+    /// Closes the stars of boundary vertices across holes, see above.
+    bool close_holes = true;
     /// Degrees, for cotangent_clamped: angles nearer than this to 0 or 180 are taken as this far from them.
     double smallest_angle = 1;
 };
@@ -103,6 +109,15 @@ RingWeights unset_weights(const Rings& rings, Operator op);
 /// @throws std::invalid_argument  as unset_weights()
 /// Cost: O(entries), parallel over rows; the result does not depend on the number of threads.
 RingWeights ring_weights(const Rings& rings, const Positions& positions, const RelaxationOptions& options = {});
+
+/// The share of each row's step, f + share (R f - f), with which steps may be repeated without end: 1 where the weights
+/// are nonnegative, 2 / (1 + sum_k |weight_k|) where some are negative. Plain steps of the second-order differences
+/// grow without bound on nearly all meshes: a step solves each vertex's row of a symmetric system A with the others
+/// kept (Jacobi), which magnifies eigenvectors of D^-1 A with values over 2. With these shares the absolute values of a
+/// row of D^-1 A sum to 2, and so no eigenvalue is larger (Gershgorin). Thin plates solve no symmetric system: theirs
+/// grow slowly on machined parts.
+/// @returns #rows, in (0, 1]
+Array<double> stable_steps(const Rings& rings, const RingWeights& weights);
 
 /// View of both, for row_sums().
 RowWeights row_weights(const Rings& rings, const RingWeights& weights);
@@ -135,12 +150,15 @@ private:
         Index a = 0, b = 0;  ///< entries of the two neighbours along the curve, for Rule::curve
     };
     Curve rule(const Star& star) const;
+    bool disk(const Star& star, const Positions& positions, double* weight, double* flap_weight);
+    void close_hole(const Star& star, const Positions& positions, double* weight, double* flap_weight);
     bool accept(bool found, const Star& star, double* weight, double* flap_weight);
 
     RelaxationOptions options_;
     double largest_cotangent_;  ///< of smallest_angle
     StarGeometry geometry_;
     kernels::PlaneInterpolation plane_;
+    std::vector<double> closed_;  ///< weights of a star closed across a hole
 };
 
 }  // namespace multires

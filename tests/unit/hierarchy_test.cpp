@@ -306,4 +306,36 @@ TEST(Hierarchy, TicksRiseAndMayStopTheBuild) {
     }
 }
 
+TEST(Hierarchy, BoundaryThatIsCoarserThanTheSurfaceWaits) {
+    Mesh mesh = shapes::open_cylinder(64, 20);
+    std::vector<Index> rim;
+    for (Index v = 0; v < static_cast<Index>(mesh.positions.size()); ++v)
+        if (mesh.positions[v].z() < -0.999) rim.push_back(v);
+    ASSERT_EQ(rim.size(), 64u);
+    const auto angle = [&](Index v) { return std::atan2(mesh.positions[v].y(), mesh.positions[v].x()); };
+    std::sort(rim.begin(), rim.end(), [&](Index a, Index b) { return angle(a) < angle(b); });
+    std::vector<Index> to(mesh.positions.size());
+    std::iota(to.begin(), to.end(), 0);
+    for (std::size_t i = 0; i < rim.size(); ++i) to[rim[i]] = rim[i - i % 4];  // edges of four times the length
+    Faces faces;
+    for (const Face& f : mesh.faces) {
+        const Face g{to[f[0]], to[f[1]], to[f[2]]};
+        if (g[0] != g[1] && g[1] != g[2] && g[2] != g[0]) faces.push_back(g);
+    }
+    mesh.faces = faces;
+    const auto left = [&](double length_weight) {
+        HierarchyOptions options;
+        options.length_weight = length_weight;
+        options.sets_per_level = 3;
+        const Hierarchy h = hierarchy_of(mesh, options);
+        int count = 0;
+        for (Index place = 0; place < h.size[1]; ++place)
+            count +=
+                to[h.order[place]] == h.order[place] && std::find(rim.begin(), rim.end(), h.order[place]) != rim.end();
+        return count;
+    };
+    EXPECT_EQ(left(0.1), 16);
+    EXPECT_LT(left(0), 16);
+}
+
 }  // namespace multires

@@ -44,12 +44,14 @@ Relaxation make_relaxation(const Layer& layer, const AttributeRelaxationOptions&
     if (uses_flaps(options.op)) find_flaps(r.rings);
     RelaxationOptions relaxation_options;
     relaxation_options.op = options.op;
+    relaxation_options.close_holes = false;  // both sides of a seam of texture charts relax by the same weights
     r.weights = ring_weights(r.rings, p, relaxation_options);
 
     const double least_cosine = std::cos(radians(options.corner_angle));
+    const Array<double> stable = stable_steps(r.rings, r.weights);
     r.step.resize(p.size());
     parallel_for(r.rings.rows(), [&](Index v) {
-        r.step[v] = options.strength * (weights.empty() ? 1 : weights[v]);
+        r.step[v] = stable[v] * options.strength * (weights.empty() ? 1 : weights[v]);
         if (!is_open(r.rings, v)) return;
         const auto [a, b] = along(r.rings, v);
         const Vec3 in = p[v] - p[a], out = p[b] - p[v];

@@ -178,10 +178,15 @@ Result unsharp(const Layer& layer, const UnsharpOptions& options, Session& sessi
     RelaxationOptions relaxation_options;
     relaxation_options.op = options.op;
     const RingWeights rows = ring_weights(rings, mesh.positions, relaxation_options);
+    const Array<double> step = stable_steps(rings, rows);
     Positions smooth = mesh.positions, next = smooth;
     for (int i = 0; i < options.iterations; ++i) {
         session.progress.report(0.2 + 0.7 * i / options.iterations, "Relaxing");
         relax(rings, rows, smooth, next);
+        parallel_for(rings.rows(), [&](Index r) {
+            const Index v = rings.vertex(r);
+            if (step[r] < 1) next[v] = smooth[v] + step[r] * (next[v] - smooth[v]);
+        });
         smooth.swap(next);
     }
     session.progress.report(0.9, "Measuring the change");

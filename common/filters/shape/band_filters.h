@@ -69,7 +69,8 @@ struct DetailOptions {
 Result detail_quality(const Layer& layer, const DetailOptions& options, Session& session);
 
 /// Single-resolution enhancement E p = R^k p + xi (p - R^k p) (Guskov et al. 1999, section 4.2): xi > 1 sharpens,
-/// 0 <= xi < 1 smooths. R is taken from the input's geometry and kept for all k steps.
+/// 0 <= xi < 1 smooths. R is taken from the input's geometry and kept for all k steps, which are shorter where they
+/// would grow otherwise (stable_steps(), operators/relaxation.h).
 struct UnsharpOptions {
     Operator op = Operator::second_difference_flaps;
     int iterations = 10;  ///< k >= 1
