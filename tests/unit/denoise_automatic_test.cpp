@@ -150,25 +150,6 @@ TEST(AutomaticDenoise, KeepsTheDetailOfMeshesWithoutNoise) {
         EXPECT_LE(rms_distance(denoised(shape.mesh), shape.mesh.positions), 0.02 * edge_of(shape.mesh)) << shape.name;
 }
 
-/// Fractal terrain of edges about 1 long: waves of random directions and phases, the higher the longer they are.
-Mesh rough_terrain(Index side) {
-    shapes::Irregular irregular;
-    irregular.jitter = 0.25;
-    irregular.flips = 0;
-    Mesh mesh = shapes::plane(side, irregular);
-    for (Vec3& p : mesh.positions) p *= side;
-    shapes::Random random(5);
-    for (int wave = 0; wave < 400; ++wave) {
-        const double turn = 2 * std::acos(-1.0), shortest = 2;
-        const double length = shortest * std::pow(side / shortest, random.uniform());
-        const double direction = turn * random.uniform(), phase = turn * random.uniform();
-        const Vec3 frequency = turn / length * Vec3(std::cos(direction), std::sin(direction), 0);
-        for (Vec3& p : mesh.positions)
-            p.z() += 0.03 * std::pow(length, 0.6) * std::sin(frequency.x() * p.x() + frequency.y() * p.y() + phase);
-    }
-    return mesh;
-}
-
 TEST(AutomaticDenoise, LeavesARoughSurfaceAsItIs) {
     const Mesh rough = rough_terrain(54);
     EXPECT_LE(rms_distance(denoised(rough), rough.positions), 0.005 * edge_of(rough));

@@ -32,6 +32,25 @@ inline Positions vertex_normals(const Mesh& mesh) {
     return normal;
 }
 
+/// Fractal terrain of edges about 1 long: waves of random directions and phases, the higher the longer they are.
+inline Mesh rough_terrain(Index side) {
+    shapes::Irregular irregular;
+    irregular.jitter = 0.25;
+    irregular.flips = 0;
+    Mesh mesh = shapes::plane(side, irregular);
+    for (Vec3& p : mesh.positions) p *= side;
+    shapes::Random random(5);
+    for (int wave = 0; wave < 400; ++wave) {
+        const double turn = 2 * std::acos(-1.0), shortest = 2;
+        const double length = shortest * std::pow(side / shortest, random.uniform());
+        const double direction = turn * random.uniform(), phase = turn * random.uniform();
+        const Vec3 frequency = turn / length * Vec3(std::cos(direction), std::sin(direction), 0);
+        for (Vec3& p : mesh.positions)
+            p.z() += 0.03 * std::pow(length, 0.6) * std::sin(frequency.x() * p.x() + frequency.y() * p.y() + phase);
+    }
+    return mesh;
+}
+
 enum class NoiseKind {
     along_normals,   ///< Gaussian, along the vertex normals
     all_directions,  ///< Gaussian in each coordinate

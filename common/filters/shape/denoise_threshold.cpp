@@ -182,8 +182,9 @@ Choice least_risk_choice(const Thresholding& thresholding, const Coefficients& c
         Positions response = thresholding.shrunk(probed, thresholds, f, {}).positions;
         for (std::size_t i = 0; i < after.size(); ++i) response[i] = (response[i] - after[i]) / step;
         const NoisySurface::Expected e = surface.expected(after, response);
-        if (e.edges < worth_edges && e.heights < worth_heights && e.edges + e.heights < best)
-            best = e.edges + e.heights, choice = {f, e.share};
+        if (!(e.edges < worth_edges && e.heights < worth_heights && e.edges + e.heights < best)) continue;
+        best = e.edges + e.heights;
+        choice = {f, std::min(e.share, surface.nearest_share(after))};
     }
     return choice;
 }
@@ -208,7 +209,7 @@ Outcome with_least_risk(const Pyramid& pyramid, const Positions& positions, cons
     const Thresholds t = thresholding.by_risk(c, surface.deviation());
     const Choice choice = least_risk_choice(thresholding, c, probed, t, surface, step, progress);
     const double factor = options.strength * choice.factor;
-    if (!(factor > 0)) return out;
+    if (!(factor > 0 && choice.share > 0)) return out;
     out.thresholds.clear();
     tell_thresholds(t, factor, thresholding, last, out);
     Thresholding::Shrunk shrunk = thresholding.shrunk(c, t, factor, confidence);

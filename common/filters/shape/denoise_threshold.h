@@ -14,6 +14,7 @@ namespace multires {
 /// surface itself is expected to be nearest to the truth, its differences along edges and its positions alike
 /// (denoise_threshold_risk.h), and vertices go as far of the way there as gains even with the least noise there may be.
 /// If none is expected to be clearly nearer than the input, it stays as it is.
+/// Nor do they go farther than they come nearer to what automatic denoising makes of the mesh.
 /// @param given       threshold in mesh units or percent of the details, unless automatic
 /// @param confidence  #V or empty: each detail's threshold is scaled by 1 - confidence of its vertex
 /// @returns  #V positions

@@ -1,6 +1,7 @@
 #include "filters/shape/denoise_threshold_risk.h"
 
 #include "base/reduce.h"
+#include "denoise/automatic.h"
 #include "denoise/risk.h"
 #include "denoise/white_share.h"
 #include "measure/measure.h"
@@ -50,6 +51,38 @@ NoisySurface::NoisySurface(const Mesh& mesh, const Progress& progress) : mesh_(m
     progress.report(0.7, "Looking for noise within the surface");
     all_directions_ = relax_within_surface(mesh.faces, mesh.positions, near_, noise_, edge).noisy;
     make_probe();
+    const Progress part = progress.part(0.75, 1);
+    AutomaticOptions options;
+    options.fast = true;
+    AutomaticStats stats;
+    likely_ = denoise_automatically(mesh.faces, mesh.positions, options, stats,
+                                    [&](double f, const char* what) { part.report(f, what); });
+}
+
+double NoisySurface::nearest_share(const Positions& after) const {
+    /// Products of two moves, summed.
+    struct Products {
+        double likely = 0, own = 0;
+        void add(const Vec3& move, const Vec3& likely_move) {
+            likely += move.dot(likely_move), own += move.squaredNorm();
+        }
+        Products& operator+=(const Products& o) {
+            likely += o.likely, own += o.own;
+            return *this;
+        }
+        double share() const { return own > 0 ? std::clamp(likely / own, 0.0, 1.0) : 0; }
+    };
+    const Positions& from = mesh_.positions;
+    const auto vertices = chunked_fold<Products>(
+        from.size(), [&](Products& sum, std::size_t v) { sum.add(after[v] - from[v], likely_[v] - from[v]); });
+    const auto edges = chunked_fold<Products>(from.size(), [&](Products& sum, std::size_t v) {
+        for (Index k = near_.offset[v]; k < near_.offset[v + 1]; ++k) {
+            const std::size_t w = static_cast<std::size_t>(near_.vertex[k]);
+            const Vec3 difference = from[v] - from[w];
+            sum.add(after[v] - after[w] - difference, likely_[v] - likely_[w] - difference);
+        }
+    });
+    return std::min(vertices.share(), edges.share());
 }
 
 void NoisySurface::make_probe() {

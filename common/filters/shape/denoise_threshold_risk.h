@@ -9,7 +9,7 @@ namespace multires {
 /// A surface with Gaussian noise, as far as it has some: what is needed to choose among ways to shrink its details.
 class NoisySurface {
 public:
-    /// Cost: linear, as for surface_noise() and relax_within_surface()
+    /// Cost: that of denoise_automatically(), if there is noise
     NoisySurface(const Mesh& mesh, const Progress& progress);
 
     /// Of the noise along the normals, root mean square, mesh units; 0 if it is not certain that there is any.
@@ -35,6 +35,11 @@ public:
     ///                  divided by that multiple
     Expected expected(const Positions& after, const Positions& response) const;
 
+    /// Share of the way to the result after which it is nearest to where the surface is likely to be, in distance and
+    /// in differences along edges: what automatic denoising makes of it, which tells shape that is taken for noise by
+    /// more candidates. 0 to 1.
+    double nearest_share(const Positions& after) const;
+
 private:
     void make_probe();
     /// Share of the variance of the noise that there is at least, seen by what is taken out of it.
@@ -46,7 +51,7 @@ private:
     SurfaceNoise noise_;
     std::vector<double> deviations_;  ///< #V: along the normals
     bool all_directions_ = false;
-    Positions smooth_, probe_;
+    Positions smooth_, probe_, likely_;
     Array<Vec3> normal_;
 };
 
