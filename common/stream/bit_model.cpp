@@ -1,6 +1,7 @@
 #include "stream/bit_model.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace multires::stream {
 namespace {
@@ -10,12 +11,15 @@ class Stretch {
 public:
     Stretch() {
         // The inverse of the logistic function by bisection: a logarithm of the library's may differ between machines.
+        constexpr double margin = 1e-5;  // more than either function is wrong by
         for (int i = 0; i < size; ++i) {
-            const double p = (i + 0.5) / size;
+            const double p = (i + 0.5) / size, about = 0.6931471805599453 * logarithm(p / (1 - p));
             double low = -12, high = 12;
             for (int k = 0; k < 50; ++k) {
                 const double middle = (low + high) / 2;
-                (1 / (1 + exponential(-middle)) < p ? low : high) = middle;
+                const bool less =
+                    std::abs(middle - about) > margin ? middle < about : 1 / (1 + exponential(-middle)) < p;
+                (less ? low : high) = middle;
             }
             value_[i] = low;
         }
@@ -26,6 +30,12 @@ private:
     static constexpr int size = 4096;
     std::array<double, size> value_;
 };
+
+/// One table for all kinds of models, so that it stays in the cache.
+const Stretch& stretch_table() {
+    static const Stretch table;
+    return table;
+}
 
 constexpr double brief = 32;  ///< bits that weights learn from in haste
 
@@ -45,7 +55,7 @@ BitModel<contexts, experts>::BitModel(const std::array<int, contexts>& sizes, in
 template <int contexts, int experts>
 bool BitModel<contexts, experts>::code(BitCoder& coder, bool bit, const std::array<int, contexts>& context, int set,
                                        const std::array<double, experts>& opinion) {
-    static const Stretch stretch;
+    static const Stretch& stretch = stretch_table();
     std::array<Slot*, contexts> slot;
     std::array<double, inputs> input;
     std::array<double, inputs>& w = weights_[set].weight;

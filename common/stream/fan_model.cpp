@@ -4,12 +4,11 @@
 #include "stream/geometry.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace multires::stream {
 namespace {
 
-constexpr int buckets = 24;
+constexpr int buckets = 24, most_valence = 11;
 
 int clamp(int x, int most) { return std::min(std::max(x, 0), most); }
 
@@ -47,35 +46,40 @@ void StarShape::take(const StarMesh& mesh, Index u, Index batch) {
 
 void StarShape::measure(const StarMesh& mesh, Index u) {
     const Index d = star.faces();
-    area.resize(d), area_to.resize(d + 1), normal.resize(d), ray.resize(d + 1), square.resize(d + 1);
-    valence.resize(d + 1), length.resize(d + 1), bend.resize(d + 1), cotangent.resize(d + 1);
-    area_to[0] = bend[0] = bend[d] = cotangent[0] = 0;
+    spokes.resize(d + 1);
+    Spoke* const s = spokes.data();
+    s[0].area_to = s[0].cotangent = s[0].bend = s[d].bend = 0;
     const Vec3& centre = mesh.point(u);
-    Vec3 b = mesh.point(star.spoke[0]) - centre;
+    Vec3 b = mesh.point(star.spoke[0]) - centre, before(0, 0, 0), first(0, 0, 0);
+    const auto tell = [&](Index i) {
+        s[i].ray = b, s[i].square = dot(b, b), s[i].length = std::sqrt(s[i].square);
+        s[i].valence = clamp(mesh.valence(star.spoke[i]), most_valence);
+    };
     for (Index i = 0; i < d; ++i) {
+        tell(i);
         const Vec3 a = b;
         b = mesh.point(star.spoke[i + 1]) - centre;
-        valence[i] = mesh.valence(star.spoke[i]);
-        ray[i] = a, square[i] = dot(a, a), length[i] = std::sqrt(square[i]);
-        normal[i] = cross(a, b);
-        const double twice = stream::length(normal[i]);
-        cotangent[i + 1] = 0;
+        Vec3 normal = cross(a, b);
+        const double twice = stream::length(normal);
+        s[i + 1].cotangent = 0;
         if (twice > 0) {
-            normal[i] /= twice;
-            cotangent[i] += dot(b, b - a) / twice;
-            cotangent[i + 1] += dot(a, a - b) / twice;
+            normal /= twice;
+            s[i].cotangent += dot(b, b - a) / twice;
+            s[i + 1].cotangent += dot(a, a - b) / twice;
         }
-        area[i] = twice / 2;
-        area_to[i + 1] = area_to[i] + area[i];
-        if (i > 0) bend[i] = 1 - dot(normal[i - 1], normal[i]);
+        s[i + 1].area_to = s[i].area_to + twice / 2;
+        if (i > 0)
+            s[i].bend = 1 - dot(before, normal);
+        else
+            first = normal;
+        before = normal;
     }
-    valence[d] = mesh.valence(star.spoke[d]);
-    ray[d] = b, square[d] = dot(b, b), length[d] = std::sqrt(square[d]);
+    tell(d);
     if (star.closed) {
-        cotangent[0] = cotangent[d] = cotangent[0] + cotangent[d];
-        bend[0] = bend[d] = 1 - dot(normal[d - 1], normal[0]);
+        s[0].cotangent = s[d].cotangent = s[0].cotangent + s[d].cotangent;
+        s[0].bend = s[d].bend = 1 - dot(before, first);
     }
-    total = area_to[d];
+    total = s[d].area_to;
 }
 
 FanModel::FanModel(bool first_models) : first_models_(first_models), is_it_({64, 64 * 16, 16 * 16, 16 * 64}, 16) {
@@ -84,15 +88,17 @@ FanModel::FanModel(bool first_models) : first_models_(first_models), is_it_({64,
 }
 
 void FanModel::rank(const StarShape& shape) {
-    candidates_.clear(), score_.clear();
     const Index d = shape.star.faces();
+    candidates_.resize(std::max(candidates_.size(), (static_cast<std::size_t>(d) + 2) * (most_faces + 1)));
+    score_.resize(candidates_.size());
+    count_ = 0;
     for (Index i = 0; i < d; ++i) {
         const Index most = std::min<Index>(most_faces, shape.star.closed ? d - 1 : d - i);
         Inner inner;
         for (Index m = 1; m <= most; ++m) {
             const Index face = i + m - 1 < d ? i + m - 1 : i + m - 1 - d;
             if (shape.taken[face]) break;
-            if (m > 1) inner.add(shape, face);
+            if (m > 1) inner.add(shape.spokes[face]);
             add(shape, {Fan::inside, i, m}, inner);
         }
     }
@@ -101,20 +107,20 @@ void FanModel::rank(const StarShape& shape) {
             for (const Fan& fan : {Fan{Fan::first, 0, m}, Fan{Fan::last, d - m, m}}) {
                 if (m > 0 && shape.taken[fan.kind == Fan::first ? m - 1 : d - m]) continue;
                 Inner inner;
-                for (Index i = fan.start + 1; i < fan.start + m; ++i) inner.add(shape, i);
+                for (Index i = fan.start + 1; i < fan.start + m; ++i) inner.add(shape.spokes[i]);
                 add(shape, fan, inner);
             }
         }
     evidence_ = -20;
-    for (const double x : score_) evidence_ = std::max(evidence_, x);
+    for (std::size_t i = 0; i < count_; ++i) evidence_ = std::max(evidence_, score_[i]);
     if (first_models_) find_shares();
 }
 
 /// Up to their sum, that is: the quotients are only wanted if one of the fans is.
 void FanModel::find_shares() {
-    const std::size_t count = candidates_.size();
+    const std::size_t count = count_;
     double most = -1e9;
-    for (const double x : score_) most = std::max(most, x);
+    for (std::size_t i = 0; i < count; ++i) most = std::max(most, score_[i]);
     share_.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
         const double power = exponential(score_[i] - most);
@@ -127,15 +133,15 @@ void FanModel::find_shares() {
 
 void FanModel::add(const StarShape& s, const Fan& fan, const Inner& inner) {
     const Index d = s.star.faces(), m = fan.faces, from = fan.start, past = from + m - d;
-    const Index to = past > 0 ? past : from + m;  // a closed star's last spoke is its first
-    const double area = past <= 0 ? s.area_to[to] - s.area_to[from] : s.total - s.area_to[from] + s.area_to[to];
-    const double wings = (s.length[from] + s.length[to]) / 2;
-    const double outer = (s.cotangent[from] + s.cotangent[to]) / 2;
+    // A closed star's last spoke is its first.
+    const StarShape::Spoke &a = s.spokes[from], &b = s.spokes[past > 0 ? past : from + m];
+    const double area = past <= 0 ? b.area_to - a.area_to : s.total - a.area_to + b.area_to;
+    const double wings = (a.length + b.length) / 2;
+    const double outer = (a.cotangent + b.cotangent) / 2;
     const Index edges = m - 1;
-    const int kind = fan.kind == Fan::inside ? 0 : 1, size = std::min<int>(m, 9) + 10 * kind;  // below 20
-    const int v1 = clamp(s.valence[from], 11), v2 = clamp(s.valence[to], 11);
+    const int kind = fan.kind == Fan::inside ? 0 : 1, size = m + 10 * kind;  // below 20
     const int rest = clamp(d - m + 2, 15);
-    Candidate& c = candidates_.emplace_back();
+    Candidate& c = candidates_[count_];
     c.fan = fan;
     const auto cot_bucket = [](double x) {
         x = (x + 2) * 4;
@@ -144,27 +150,29 @@ void FanModel::add(const StarShape& s, const Fan& fan, const Inner& inner) {
     };
     const std::array<int, features> value = {
         size * 16 + rest,
-        std::min(v1, v2) * 12 + std::max(v1, v2) + 144 * (m > 4) + 288 * kind,
+        std::min(a.valence, b.valence) * (most_valence + 1) + std::max(a.valence, b.valence) + 144 * (m > 4) +
+            288 * kind,
         size * buckets + (m > 1 ? ratio_bucket(over(inner.length, edges), wings) : 0),
         size * buckets + ratio_bucket(area * d, s.total * m),
         size * 21 + (m > 1 ? cot_bucket(over(inner.cotangent, edges)) : 0),
         size * 21 + cot_bucket(outer),
         size * buckets + (m > 1 ? clamp(octave_steps(over(inner.bend, edges), 2) + 20, buckets - 1) : 0),
-        first_models_ ? size * 16 + clamp(d, 15)
-                      : size * buckets + nearness(inner.sum + (s.ray[from] + s.ray[to]),
-                                                  inner.squares + (s.square[from] + s.square[to]), m + 2)};
+        first_models_
+            ? size * 16 + clamp(d, 15)
+            : size * buckets + nearness(inner.sum + (a.ray + b.ray), inner.squares + (a.square + b.square), m + 2)};
+    const double* const weights = weights_.data();
     double score = 0;
     for (int i = 0; i < features; ++i) {
         c.weight[i] = i * 1024 + value[i];
-        score += weights_[c.weight[i]];
+        score += weights[c.weight[i]];
     }
-    score_.push_back(score);
+    score_[count_++] = score;
 }
 
 Fan FanModel::code(BitCoder& coder, const StarShape& shape, const Fan& fan) {
-    std::size_t wanted = candidates_.size();
+    std::size_t wanted = count_;
     if (!coder.reads())
-        for (std::size_t i = 0; i < candidates_.size(); ++i) {
+        for (std::size_t i = 0; i < count_; ++i) {
             const Fan& c = candidates_[i].fan;
             if (c.kind == fan.kind && c.faces == fan.faces && (c.kind != Fan::inside || c.start == fan.start))
                 wanted = i;
@@ -172,42 +180,44 @@ Fan FanModel::code(BitCoder& coder, const StarShape& shape, const Fan& fan) {
     if (!first_models_) find_shares();
     for (double& share : share_) share /= sum_;
     const std::size_t chosen = code_rank(coder, wanted);
-    if (chosen == candidates_.size()) return code_plainly(coder, shape, fan);
+    if (chosen == count_) return code_plainly(coder, shape, fan);
     learn(chosen);
     return candidates_[chosen].fan;
 }
 
 std::size_t FanModel::code_rank(BitCoder& coder, std::size_t wanted) {
-    order_.resize(candidates_.size());
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
+    const std::size_t count = count_;
+    unranked_ = share_;
     // Few ranks are looked at: the next is looked for when it is wanted. Of equal shares the first comes first.
-    const auto find = [&](std::size_t rank) {
-        for (std::size_t i = rank + 1; i < order_.size(); ++i) {
-            const double a = share_[order_[i]], b = share_[order_[rank]];
-            if (a > b || (a == b && order_[i] < order_[rank])) std::swap(order_[i], order_[rank]);
+    const auto take_largest = [&] {
+        double most = -1;
+        std::size_t at = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            at = unranked_[i] > most ? i : at;
+            most = unranked_[i] > most ? unranked_[i] : most;
         }
+        unranked_[at] = -1;
+        return at;
     };
-    if (!order_.empty()) find(0);
     double left = 1;
-    for (std::size_t rank = 0; rank < order_.size(); ++rank) {
-        const Candidate& c = candidates_[order_[rank]];
-        if (rank + 1 < order_.size()) find(rank + 1);
-        const double chance = left > 1e-6 ? std::min(share_[order_[rank]] / left, 1.0) : 0.5;
+    std::size_t one = count > 0 ? take_largest() : 0;
+    for (std::size_t rank = 0; rank < count; ++rank) {
+        const std::size_t other = rank + 1 < count ? take_largest() : 0;
+        const double chance = left > 1e-6 ? std::min(share_[one] / left, 1.0) : 0.5;
         const int share = clamp(static_cast<int>(chance * 63), 63), place = clamp(static_cast<int>(rank), 15);
-        const int next = rank + 1 < order_.size() && left > 1e-6
-                             ? clamp(static_cast<int>(share_[order_[rank + 1]] / left * 15), 15)
-                             : 0;
-        const int faces = std::min<int>(c.fan.faces, 15);
-        if (is_it_.code(coder, order_[rank] == wanted,
-                        {share, share * 16 + place, place * 16 + faces, next * 64 + share}, place))
-            return order_[rank];
-        left -= share_[order_[rank]];
+        const int next = rank + 1 < count && left > 1e-6 ? clamp(static_cast<int>(share_[other] / left * 15), 15) : 0;
+        const int faces = std::min<int>(candidates_[one].fan.faces, 15);
+        if (is_it_.code(coder, one == wanted, {share, share * 16 + place, place * 16 + faces, next * 64 + share},
+                        place))
+            return one;
+        left -= share_[one];
+        one = other;
     }
-    return candidates_.size();
+    return count;
 }
 
 void FanModel::learn(std::size_t chosen) {
-    for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    for (std::size_t i = 0; i < count_; ++i) {
         const Candidate& c = candidates_[i];
         const double step = (i == chosen ? 1 : 0) - share_[i];
         if (step > -1e-3 && step < 1e-3) continue;

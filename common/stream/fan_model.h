@@ -10,17 +10,18 @@ namespace multires::stream {
 
 /// A star and what can be told from its shape about the fans in it. Stars are taken once and used for all questions.
 struct StarShape {
+    struct Spoke {
+        Vec3 ray;  ///< from the vertex to the spoke's
+        double square = 0, length = 0;
+        double cotangent = 0;  ///< sum of those of the opposite angles; negative: not Delaunay
+        double bend = 0;       ///< 1 - cos of the angle between the two faces' normals
+        double area_to = 0;    ///< sum of the areas of the faces before it
+        int valence = 0;       ///< of the spoke's vertex, 11 at most
+    };
     Star star;
-    std::vector<std::uint8_t> taken;   ///< #faces: belongs to a vertex that was split off in this batch
-    std::vector<Index> valence;        ///< #spokes: of the spokes' vertices
-    std::vector<double> area, length;  ///< of faces and spokes
-    std::vector<double> cotangent;     ///< #spokes: sum of those of the opposite angles; negative: not Delaunay
-    std::vector<double> bend;          ///< #spokes: 1 - cos of the angle between the two faces' normals
-    std::vector<double> area_to;       ///< #faces+1: sums of areas
-    std::vector<Vec3> normal;          ///< #faces
-    std::vector<Vec3> ray;             ///< #spokes: from the vertex to the spokes'
-    std::vector<double> square;        ///< #spokes: of their lengths
-    double total = 0;                  ///< area
+    std::vector<std::uint8_t> taken;  ///< #faces: belongs to a vertex that was split off in this batch
+    std::vector<Spoke> spokes;        ///< one more than faces
+    double total = 0;                 ///< area
     Index faces_taken = 0;
 
     /// The star of u and what is taken.
@@ -58,9 +59,9 @@ private:
     struct Inner {
         double length = 0, cotangent = 0, bend = 0, squares = 0;
         Vec3 sum{0, 0, 0};
-        void add(const StarShape& shape, Index spoke) {
-            length += shape.length[spoke], cotangent += shape.cotangent[spoke], bend += shape.bend[spoke];
-            sum += shape.ray[spoke], squares += shape.square[spoke];
+        void add(const StarShape::Spoke& s) {
+            length += s.length, cotangent += s.cotangent, bend += s.bend;
+            sum += s.ray, squares += s.square;
         }
     };
     void add(const StarShape& shape, const Fan& fan, const Inner& inner);
@@ -69,10 +70,12 @@ private:
     std::size_t code_rank(BitCoder& coder, std::size_t wanted);
     void learn(std::size_t chosen);
 
-    std::vector<Candidate> candidates_;
-    std::vector<double> score_, share_;  ///< #candidates; shares of sum_ until code() divides them
+    std::size_t count_ = 0;              ///< of the fans that are ranked: the first ones of what follows
+    std::vector<Candidate> candidates_;  ///< as long as they ever were
+    std::vector<double> score_;          ///< the same
+    std::vector<double> share_;          ///< #count_: of sum_ until code() divides them
     double sum_ = 0;
-    std::vector<std::size_t> order_;
+    std::vector<double> unranked_;  ///< shares of what is not ranked yet; -1: it is
     double evidence_ = 0;
     bool first_models_;
     std::vector<double> weights_, squares_;

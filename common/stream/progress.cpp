@@ -138,7 +138,8 @@ int Progress::alike_around(Index v, int axis) const {
     int up = 0, down = 0;
     for (std::size_t i = star_.closed ? 1 : 0; i < star_.spoke.size(); ++i) {
         const Index w = star_.spoke[i];
-        if (w < v && cells_[w][axis] >> 1 == cells_[v][axis]) ++(cells_[w][axis] & 1 ? up : down);
+        const int known = static_cast<int>(w < v) & static_cast<int>(cells_[w][axis] >> 1 == cells_[v][axis]);
+        up += known & cells_[w][axis], down += known & ~cells_[w][axis];
     }
     return clamp(up, 3) * 4 + clamp(down, 3);
 }

@@ -95,9 +95,9 @@ void StarMesh::star(Index u, Star& star) const {
     star.spoke.resize(d + 1);
     star.closed = twin(first) >= 0;
     Index h = first;
+    star.spoke[0] = target(h);
     for (Index i = 0; i < d; ++i) {
         star.leaving[i] = h;
-        star.spoke[i] = target(h);
         const Index back = previous(h);
         star.spoke[i + 1] = origin(back);
         h = twin(back);
