@@ -113,6 +113,9 @@ private:
     }
 
     void help() {
+        // The C++ library's variables for exceptions are allocated at a thread's first access, too: now, not when there
+        // is no memory left to report just that.
+        static_cast<void>(std::uncaught_exceptions());
         unsigned seen = 0;
         for (;;) {
             // Loops come in quick succession: look for the next one for a while before going to sleep.

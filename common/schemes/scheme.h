@@ -63,7 +63,7 @@ struct Capabilities {
     bool critically_sampled = false;  ///< as many coefficients as values, no details of vertices that stay
     bool linear_precision = true;     ///< linear functions on planes have no details inside if the operator says so
     bool starts_anywhere = true;      ///< takes Synthesis::from and values
-    bool even_rings = true;           ///< reads Level::even: the hierarchy must hold it
+    bool even_rings = true;           ///< reads Hierarchy::even: the hierarchy must hold it
 };
 
 /// Options of all schemes; each uses those that apply to it.
