@@ -2,6 +2,7 @@
 
 #include "given.h"
 
+#include <algorithm>
 #include <set>
 
 namespace multires::plugin {
@@ -46,6 +47,8 @@ inline std::vector<Variant> crossed_variants(const Filter& filter, const Layer& 
     return single;
 #else
     const std::set<std::string> switches = {"method", "mode", "target", "scheme"};
+    const bool has_rule =
+        std::any_of(single.begin(), single.end(), [](const Variant& v) { return v.changed == "rule"; });
     std::vector<Variant> out = single;
     for (const Variant& a : single)
         for (const Variant& b : single) {
@@ -53,6 +56,7 @@ inline std::vector<Variant> crossed_variants(const Filter& filter, const Layer& 
             if (switches.count(b.changed) && b.changed < a.changed) continue;  // once is enough
             Variant both{a.name + ", " + b.name, a.values};
             both.values[b.changed] = b.values.at(b.changed);
+            if (has_rule) both.values.emplace("rule", 0);  // soft: the default, automatic, reads no pyramid
             out.push_back(std::move(both));
         }
     return out;
