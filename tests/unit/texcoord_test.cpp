@@ -145,9 +145,10 @@ TEST(Texcoord, PlanarProjectionOfAPlaneIsLinear) {
         }
         const double slope = (count * xu - x * u) / (count * xx - x * x);
         EXPECT_NEAR(slope, 1, 0.06);
-        for (std::size_t v = 0; v < mesh.positions.size(); ++v)
-            if (inside(v))
-                EXPECT_NEAR(m.uv()[2 * v + c], (u + slope * (count * mesh.positions[v][c] - x)) / count, 0.005);
+        for (std::size_t v = 0; v < mesh.positions.size(); ++v) {
+            if (!inside(v)) continue;
+            EXPECT_NEAR(m.uv()[2 * v + c], (u + slope * (count * mesh.positions[v][c] - x)) / count, 0.005);
+        }
     }
     expect_wedges_follow_vertices(mesh, m);
 }
