@@ -135,16 +135,19 @@ Vec3 PhongSurface::normal(Index face, const Vec3& w) const {
 
 Eigen::Matrix3d PhongSurface::frame(Index face, const Vec3& weight) const {
     const Face& f = faces_[face];
-    const Vec3 side[2] = {positions_[f[1]] - positions_[f[0]], positions_[f[2]] - positions_[f[0]]};
-    constexpr double least = 1e-6;  // less is cancellation
-    Vec3 n = normal(face, weight), t = Vec3::Zero();
-    if (n.norm() < least) n = side[0].cross(side[1]);
-    n = n.norm() > 0 ? Vec3(n.normalized()) : Vec3::UnitZ();
-    for (const Vec3& s : side) {
-        if (t == Vec3::Zero()) t = s - s.dot(n) * n;
-        if (t.norm() <= least * s.norm()) t.setZero();
-    }
-    t = t == Vec3::Zero() ? n.unitOrthogonal() : Vec3(t.normalized());
+    const Vec3 first = positions_[f[1]] - positions_[f[0]];
+    const auto second = [&] { return Vec3(positions_[f[2]] - positions_[f[0]]); };
+    constexpr double least = 1e-12;  // squared; less is cancellation
+    Vec3 n = normal(face, weight);
+    if (!(n.squaredNorm() >= least)) n = first.cross(second());
+    n = n.squaredNorm() > 0 ? Vec3(n.normalized()) : Vec3::UnitZ();
+    const auto across = [&](const Vec3& side) {
+        const Vec3 t = side - side.dot(n) * n;
+        return t.squaredNorm() > least * side.squaredNorm() ? Vec3(t.normalized()) : Vec3::Zero();
+    };
+    Vec3 t = across(first);
+    if (t.isZero(0)) t = across(second());
+    if (t.isZero(0)) t = n.unitOrthogonal();
     Eigen::Matrix3d axes;
     axes << t, n.cross(t), n;
     return axes;

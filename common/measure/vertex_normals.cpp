@@ -1,5 +1,7 @@
 #include "measure/vertex_normals.h"
 
+#include "base/parallel.h"
+
 namespace multires {
 
 Array<Vec3> vertex_area_vectors(const Faces& faces, const Positions& positions) {
@@ -13,10 +15,10 @@ Array<Vec3> vertex_area_vectors(const Faces& faces, const Positions& positions) 
 
 Array<Vec3> vertex_normals(const Faces& faces, const Positions& positions) {
     Array<Vec3> normal = vertex_area_vectors(faces, positions);
-    for (Vec3& n : normal) {
-        const double length = n.norm();
-        if (length > 0) n /= length;
-    }
+    parallel_for(static_cast<Index>(normal.size()), [&](Index v) {
+        const double length = normal[v].norm();
+        if (length > 0) normal[v] /= length;
+    });
     return normal;
 }
 
