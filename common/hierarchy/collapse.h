@@ -156,8 +156,8 @@ inline bool faces_stay_good(Index v, Index u, const Ring& ring, const Positions&
         const double least = limits.shape * limits.shape;
         const bool sliver_before = nn < least * longest_before * longest_before;
         if (mm < least * longest * longest) {
-            // A sliver may stay one, but not become worse.
-            if (!sliver_before || mm * longest_before * longest_before < nn * longest * longest) return false;
+            // A sliver may stay one, but not become much worse: its tip may move along its short side.
+            if (!sliver_before || mm * longest_before * longest_before < 0.9 * nn * longest * longest) return false;
         }
         if (nn < 1e-20 * longest_before * longest_before) continue;  // has no normal to turn
         const double bound = limits.cosine * std::sqrt(nn * mm);

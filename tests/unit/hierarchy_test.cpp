@@ -1,3 +1,4 @@
+#include "base/angles.h"
 #include "hierarchy/collapse.h"
 #include "hierarchy/fresh_costs.h"
 #include "hierarchy/hierarchy.h"
@@ -336,6 +337,23 @@ TEST(Hierarchy, BoundaryThatIsCoarserThanTheSurfaceWaits) {
     };
     EXPECT_EQ(left(0.1), 16);
     EXPECT_LT(left(0), 16);
+}
+
+TEST(Hierarchy, ThinTrianglesAreTakenLikeOthers) {
+    const auto sizes = [](double aspect) {
+        constexpr Index around = 100, along = 30;
+        HierarchyOptions options;
+        options.base_vertices = 100;
+        const double height = aspect * 2 * pi / around * along;
+        return hierarchy_of(shapes::open_cylinder(around, along, 1, height), options).size;
+    };
+    const auto even = sizes(2);
+    for (const double aspect : {30.0, 80.0, 300.0}) {
+        SCOPED_TRACE(aspect);
+        const auto thin = sizes(aspect);
+        EXPECT_LE(thin.back(), even.back() + 10);
+        EXPECT_LE(thin.size(), even.size() + 1);
+    }
 }
 
 }  // namespace multires
