@@ -44,7 +44,9 @@ inline double exponential(double x) {
 inline double logarithm(double x) {
     int exponent = 0;
     double m = mantissa(x, exponent);
-    if (m > 1.4142135623730951) m /= 2, ++exponent;
+    const bool above = m > 1.4142135623730951;  // no branch: which it is cannot be foreseen
+    m = above ? m * 0.5 : m;
+    exponent += static_cast<int>(above);
     const double z = (m - 1) / (m + 1), zz = z * z;
     return exponent + 2.8853900817779268 * z * (1 + zz * (1.0 / 3 + zz * (0.2 + zz * (1.0 / 7 + zz / 9))));
 }

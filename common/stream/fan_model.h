@@ -2,6 +2,7 @@
 
 #include "stream/bit_model.h"
 #include "stream/star_mesh.h"
+#include "stream/two.h"
 
 #include <array>
 #include <vector>
@@ -10,17 +11,23 @@ namespace multires::stream {
 
 /// A star and what can be told from its shape about the fans in it. Stars are taken once and used for all questions.
 struct StarShape {
-    struct Spoke {
-        Vec3 ray;  ///< from the vertex to the spoke's
-        double square = 0, length = 0;
-        double cotangent = 0;  ///< sum of those of the opposite angles; negative: not Delaunay
-        double bend = 0;       ///< 1 - cos of the angle between the two faces' normals
-        double area_to = 0;    ///< sum of the areas of the faces before it
-        int valence = 0;       ///< of the spoke's vertex, 11 at most
+    /// What is known of each spoke, a column of numbers each.
+    enum Column {
+        x,  ///< of the ray from the vertex to the spoke's, as y and z
+        y,
+        z,
+        square,  ///< of its length
+        length,
+        cotangent,  ///< sum of those of the opposite angles; negative: not Delaunay
+        bend,       ///< 1 - cos of the angle between the two faces' normals
+        area_to,    ///< sum of the areas of the faces before it
+        turned,     ///< the total area from the second turn on, else 0
+        valence,    ///< of the spoke's vertex, 11 at most
+        columns
     };
+    static constexpr Index overhang = 8;  ///< spokes of the second turn
     Star star;
     std::vector<std::uint8_t> taken;  ///< #faces: belongs to a vertex that was split off in this batch
-    std::vector<Spoke> spokes;        ///< one more than faces
     double total = 0;                 ///< area
     Index faces_taken = 0;
 
@@ -30,6 +37,19 @@ struct StarShape {
     /// The rest.
     void measure(const StarMesh& mesh, Index u);
     bool has_fans() const { return !star.closed || faces_taken < star.faces(); }
+
+    /// One more than faces, and `overhang` more: of closed stars the first ones again, of others zeros.
+    const double* operator[](Column c) const { return numbers_.data() + c * room_; }
+
+private:
+    enum FaceColumn { normal_x = columns, normal_y, normal_z, first_cotangent, second_cotangent, all_columns };
+    double* column(int c) { return numbers_.data() + c * room_; }
+    void measure_rays(const StarMesh& mesh, Index u);
+    void measure_faces();
+    void turn_again();
+
+    std::vector<double> numbers_;  ///< by columns of room_
+    std::size_t room_ = 0;
 };
 
 /// Which fan of a star is split off: all fans are ranked by a log-linear model over what makes one likely, learned
@@ -52,19 +72,20 @@ private:
     static constexpr int most_faces = 6, features = 8;
     struct Candidate {
         Fan fan;
-        std::array<int, features> weight;  ///< places in weights_
+        std::size_t value;  ///< the first of its numbers in values_, which are every other one from there on
     };
 
-    /// Sums over the edges inside a fan, from the first to the last: the order of sums is part of the format.
+    /// Sums over the edges inside two fans, from the first to the last: the order of sums is part of the format.
     struct Inner {
-        double length = 0, cotangent = 0, bend = 0, squares = 0;
-        Vec3 sum{0, 0, 0};
-        void add(const StarShape::Spoke& s) {
-            length += s.length, cotangent += s.cotangent, bend += s.bend;
-            sum += s.ray, squares += s.square;
-        }
+        Two length, cotangent, bend, squares, x, y, z;
+        template <class Spokes>
+        void add(const Spokes& at, Index spoke);
     };
-    void add(const StarShape& shape, const Fan& fan, const Inner& inner);
+    void rank_inside(const StarShape& shape);
+    void rank_at_ends(const StarShape& shape);
+    template <class Spokes>
+    Two score(const StarShape& shape, const Spokes& at, Index faces, int kind, Inner& inner);
+    void put(std::size_t at, const Fan& fan, double score, int which);
     void find_shares();
     Fan code_plainly(BitCoder& coder, const StarShape& shape, const Fan& fan);
     std::size_t code_rank(BitCoder& coder, std::size_t wanted);
@@ -75,6 +96,9 @@ private:
     std::vector<double> score_;          ///< the same
     std::vector<double> share_;          ///< #count_: of sum_ until code() divides them
     double sum_ = 0;
+    std::vector<Index> most_faces_from_;  ///< #faces + 1: of fans that start there
+    std::vector<std::int64_t> values_;    ///< of features, by two fans, of all fans
+    std::size_t values_count_ = 0;
     std::vector<double> unranked_;  ///< shares of what is not ranked yet; -1: it is
     double evidence_ = 0;
     bool first_models_;

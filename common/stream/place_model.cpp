@@ -196,21 +196,16 @@ void PlaceModel::find_mode(const StarMesh& mesh) {
 /// Codes how far a coordinate is from its prediction.
 /// @param clues  of each expert; mean_ has their places relative to the prediction
 std::int32_t PlaceModel::code_with_experts(BitCoder& coder, std::int32_t rest, ResidualModel& model,
-                                           ResidualModel::Contexts& contexts, const std::array<Clues, experts>& clues,
-                                           std::array<Width, experts>& width) {
+                                           ResidualModel::Contexts& contexts, const Clues& clues, Widths& widths) {
+    const Two off = smaller(larger(widths.predict(clues), -3), 24);
+    contexts.expected = clamp(static_cast<int>((off.first() + 3) * 5), 63);
     ResidualModel::Opinions opinions;
-    for (int e = 0; e < experts; ++e) {
-        const double off = std::min(std::max(width[e].predict(clues[e]), -3.0), 24.0);
-        if (e == 0) contexts.expected = clamp(static_cast<int>((off + 3) * 5), 63);
-        const bool heavy = e > 0;  // modes are right or quite wrong
-        opinions.expert[e] = {mean_[e], (heavy ? 1 : 1.5) / exponential(0.6931471805599453 * off), heavy};
-    }
+    opinions.experts = {mean_, Two(1.5, 1) / exponential(0.6931471805599453 * off)};
     opinions.support = clamp(static_cast<int>(support_ * 1.2), 7);
     const std::int32_t out = model.code(coder, rest, contexts, &opinions);
-    for (int e = 0; e < experts; ++e) {
-        missed_[e] = logarithm(std::abs(out - mean_[e]) + 0.3);
-        width[e].learn(clues[e], missed_[e]), width[e].end_sample();
-    }
+    const Two missed = out - mean_;
+    missed_ = logarithm(larger(missed, 0 - missed) + 0.3);
+    widths.learn(clues, missed_), widths.end_sample();
     return out;
 }
 
@@ -244,14 +239,11 @@ std::int32_t PlaceModel::code_along(BitCoder& coder, int axis, std::int32_t valu
     ResidualModel& model = along_[star_->closed ? 0 : 1];
     std::int32_t out = 0;
     if (with_experts_) {
-        mean_ = {place - guess, mode_[axis] - guess};
-        std::array<Clues, experts> clues;
-        for (int e = 0; e < experts; ++e) {
-            clues[e] = {
-                1,           f[1],        f[2], memory_along_, apart_along_, second ? missed_[e] - far_of_first : 0,
-                apart_mode_, log_support_};
-        }
-        out = sum(guess, code_with_experts(coder, value - guess, model, c, clues, width_along_));
+        mean_ = Two(place - guess, mode_[axis] - guess);
+        const Clues clues = {
+            1,           f[1],        f[2], memory_along_, apart_along_, second ? missed_ - far_of_first : Two(),
+            apart_mode_, log_support_};
+        out = sum(guess, code_with_experts(coder, value - guess, model, c, clues, widths_along_));
     } else {
         Regression<9>::Features g;
         std::copy(f.begin(), f.end(), g.begin());
@@ -319,18 +311,16 @@ std::int32_t PlaceModel::code_height(BitCoder& coder, const StarMesh& mesh, Inde
     std::int32_t value = 0;
     if (with_experts_) {
         const double off_mode_a = cell[a] - mode_[a], off_mode_b = cell[b] - mode_[b];
-        mean_ = {height - guess, mode_[w] - (up_[a] * off_mode_a + up_[b] * off_mode_b) / up_[w] - guess};
-        std::array<Clues, experts> clues;
-        clues[0] = {1,
-                    g[1],
-                    g[2],
-                    memory_across_,
-                    apart_across_,
-                    g[6],
-                    logarithm(std::abs(off_mode_a) + std::abs(off_mode_b) + 0.3),
-                    log_support_};
-        clues[1] = clues[0];
-        value = sum(guess, code_with_experts(coder, cell[w] - guess, across_[open], c, clues, width_across_));
+        mean_ = Two(height - guess, mode_[w] - (up_[a] * off_mode_a + up_[b] * off_mode_b) / up_[w] - guess);
+        const Clues clues = {1,
+                             g[1],
+                             g[2],
+                             memory_across_,
+                             apart_across_,
+                             g[6],
+                             logarithm(std::abs(off_mode_a) + std::abs(off_mode_b) + 0.3),
+                             log_support_};
+        value = sum(guess, code_with_experts(coder, cell[w] - guess, across_[open], c, clues, widths_across_));
     } else {
         c.expected = clamp(static_cast<int>((expect_across_.predict(g) + 3) * 6), 63);
         value = sum(guess, across_[open].code(coder, cell[w] - guess, c, nullptr));

@@ -29,11 +29,11 @@ public:
     Cell code(BitCoder& coder, const StarMesh& mesh, const Star& star, Index v, Index parent, const Cell& cell);
 
 private:
-    static constexpr int points = 6, heights = 5, experts = ResidualModel::experts;
-    /// What tells how far off an expert may be.
-    using Clues = std::array<double, 8>;
-    /// How far off an expert is, log2 of cells.
-    using Width = Regression<8>;
+    static constexpr int points = 6, heights = 5;
+    /// What tells how far off the experts may be.
+    using Clues = std::array<Two, 8>;
+    /// How far off they are, log2 of cells.
+    using Widths = Regression<8, Two>;
 
     void take(const StarMesh& mesh, Index parent);
     void find_normals(const StarMesh& mesh);
@@ -41,8 +41,7 @@ private:
     void find_mode(const StarMesh& mesh);
     void add_candidates(const StarMesh& mesh);
     std::int32_t code_with_experts(BitCoder& coder, std::int32_t rest, ResidualModel& model,
-                                   ResidualModel::Contexts& contexts, const std::array<Clues, experts>& clues,
-                                   std::array<Width, experts>& width);
+                                   ResidualModel::Contexts& contexts, const Clues& clues, Widths& widths);
     std::int32_t code_along(BitCoder& coder, int axis, std::int32_t value);
     std::int32_t code_height(BitCoder& coder, const StarMesh& mesh, Index parent, const Cell& cell);
     std::array<double, heights> height_features(const StarMesh& mesh, Index parent, const Cell& cell) const;
@@ -57,9 +56,8 @@ private:
     Vec3 mode_{0, 0, 0};
     double support_ = 0;  ///< how many candidates agree
     double apart_mode_ = 0, log_support_ = 0;
-    std::array<double, experts> mean_{}, missed_{};  ///< of what is coded now; logarithm of the last miss, cells
-    std::array<Width, experts> width_along_{Width({0, 1}), Width({0, 1})},
-        width_across_{Width({0, 0.5, 0, 0.5}), Width({0, 0.5, 0, 0.5})};
+    Two mean_, missed_;  ///< of what is coded now; logarithm of the last miss, cells
+    Widths widths_along_{{0, 1}}, widths_across_{{0, 0.5, 0, 0.5}};
     double scale_ = 1, off_ = 0;
     Regression<1> slope_{{0.8}};
     std::array<int, 3> axes_{};  ///< the two along the surface, the one across

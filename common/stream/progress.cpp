@@ -50,6 +50,7 @@ void Progress::begin_batch() {
     before_batch_ = mesh_.vertices();
     ++batch_;
     at_ = 0;
+    prefetched_.fill(-1);
     std::vector<std::size_t> begin;  // of each valence, the highest first
     for (Index v = 0; v < mesh_.vertices(); ++v) {
         if (!mesh_.regular(v)) continue;
@@ -65,10 +66,17 @@ void Progress::begin_batch() {
     require(!order_.empty(), "the stream is damaged: nothing can be split");
 }
 
+/// Takes the next step with the stars of the vertices that come next.
+void Progress::look_ahead() {
+    for (std::size_t i = 1; i <= ahead && at_ + i < order_.size(); ++i) {
+        Index& last = prefetched_[(at_ + i) % ahead];
+        last = mesh_.prefetch(order_[at_ + i], static_cast<int>(ahead - i), last);
+    }
+}
+
 void Progress::visit(BitCoder& coder, Guide* guide) {
     if (at_ == order_.size()) begin_batch();
-    constexpr std::size_t ahead = 8;
-    if (at_ % ahead == 0) mesh_.prefetch(&order_[at_], static_cast<int>(std::min(ahead, order_.size() - at_)));
+    look_ahead();
     const Index u = order_[at_++];
     for (int children = 0;; ++children) {
         shape_.take(mesh_, u, batch_);
@@ -116,7 +124,9 @@ bool Progress::is_split(BitCoder& coder, bool yes, int children, bool looked) {
 
 void Progress::split(BitCoder& coder, Index u, const NewVertex& wanted) {
     require(mesh_.vertices() < most_, "the stream is damaged: it has more vertices than it says");
+    mesh_.prefetch_faces_beside(shape_.star);
     const Fan fan = fans_.code(coder, shape_, wanted.fan);
+    mesh_.prefetch_vertices_beside(shape_.star, fan);
     mesh_.split(u, shape_.star, fan);
     const Index v = mesh_.vertices() - 1;
     cells_.emplace_back();

@@ -4,6 +4,7 @@
 #include "stream/place_model.h"
 #include "stream/star_mesh.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -65,6 +66,7 @@ public:
 
 private:
     void begin_batch();
+    void look_ahead();
     bool may_split(int children) const;
     void rank_fans(Index u);
     bool is_split(BitCoder& coder, bool yes, int children, bool looked);
@@ -81,8 +83,10 @@ private:
 
     std::vector<Index> order_;  ///< of the batch
     std::size_t at_ = 0;
-    Index before_batch_ = 0;  ///< vertices
-    Index batch_ = 0;         ///< counted from 1; the mark of faces around vertices that are new in it
+    static constexpr std::size_t ahead = 8;
+    std::array<Index, ahead> prefetched_{};  ///< see StarMesh::prefetch(): of vertices ahead, by their index in order_
+    Index before_batch_ = 0;                 ///< vertices
+    Index batch_ = 0;                        ///< counted from 1; the mark of faces around vertices that are new in it
     double density_ = 0.3, mean_area_ = 0;
     StarShape shape_;
     Star star_;

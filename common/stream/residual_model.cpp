@@ -9,17 +9,9 @@ namespace {
 constexpr int sign_node = 1, size_node = 2, bits_node = 34, most = 31;
 
 /// ln(a / b) within limits.
-double log_ratio(double a, double b) {
+Two log_ratio(Two a, Two b) {
     constexpr double least = 1e-9, limit = 9;
-    const double x = 0.6931471805599453 * logarithm((a + least) / (b + least));
-    return std::min(std::max(x, -limit), limit);
-}
-
-template <std::size_t n>
-std::array<double, n> difference(const std::array<double, n>& a, const std::array<double, n>& b) {
-    std::array<double, n> out;
-    for (std::size_t e = 0; e < n; ++e) out[e] = a[e] - b[e];
-    return out;
+    return smaller(larger(0.6931471805599453 * logarithm((a + least) / (b + least)), -limit), limit);
 }
 
 }  // namespace
@@ -33,14 +25,13 @@ ResidualModel::ResidualModel(bool with_experts) {
         plain_ = std::make_unique<BitModel<7>>(std::array<int, 7>{n, n, n, n, n, n, nodes * 16}, nodes);
 }
 
-bool ResidualModel::bit(BitCoder& coder, bool value, int node, const Masses& one, const Masses& none) {
+bool ResidualModel::bit(BitCoder& coder, bool value, int node, Masses one, Masses none) {
     const Contexts& c = *contexts_;
     const int at = node * 64;
     if (mixed_) {
-        std::array<double, experts> opinion;
-        for (int e = 0; e < experts; ++e) opinion[e] = log_ratio(std::max(one[e], 0.0), std::max(none[e], 0.0));
+        const Two opinion = log_ratio(larger(one, 0), larger(none, 0));
         return mixed_->code(coder, value, {at + c.expected, at + c.spread, at + c.lean},
-                            node * supports + opinions_->support, opinion);
+                            node * supports + opinions_->support, {opinion.first(), opinion.second()});
     }
     return plain_->code(coder, value,
                         {at + c.expected, at + c.spread, at + c.memory, at + c.other, at + c.lean,
@@ -49,21 +40,15 @@ bool ResidualModel::bit(BitCoder& coder, bool value, int node, const Masses& one
 }
 
 ResidualModel::Masses ResidualModel::beyond(double x) const {
-    Masses out{};
-    if (mixed_)
-        for (int e = 0; e < experts; ++e) out[e] = opinions_->expert[e].beyond(x, side_);
-    return out;
+    return mixed_ ? opinions_->experts.beyond(x, side_) : Masses();
 }
 
 std::int32_t ResidualModel::code(BitCoder& coder, std::int32_t value, const Contexts& contexts,
                                  const Opinions* opinions) {
     contexts_ = &contexts, opinions_ = opinions;
-    side_ = -1;
-    const Masses below = beyond(0.5);
-    side_ = 1;
-    const Masses above = beyond(0.5);
-    Masses outside, zero;
-    for (int e = 0; e < experts; ++e) outside[e] = below[e] + above[e], zero[e] = 1 - outside[e];
+    Masses below, above;
+    if (mixed_) opinions_->experts.beyond(0.5, below, above);
+    const Masses outside = below + above, zero = 1 - outside;
     if (bit(coder, value == 0, 0, zero, outside)) return 0;
     const bool negative = bit(coder, value < 0, sign_node, below, above);
     side_ = negative ? -1 : 1;
@@ -79,7 +64,7 @@ int ResidualModel::code_size(BitCoder& coder, std::uint32_t magnitude) {
     int size = 0;
     for (; size < most - 1; ++size) {
         past_ = beyond(power_of_two(size + 1) - 0.5);
-        if (!bit(coder, magnitude >> (size + 1) != 0, size_node + size, past_, difference(from_, past_))) break;
+        if (!bit(coder, magnitude >> (size + 1) != 0, size_node + size, past_, from_ - past_)) break;
         from_ = past_;
     }
     return size;
@@ -97,7 +82,7 @@ std::uint32_t ResidualModel::code_bits(BitCoder& coder, std::uint32_t magnitude,
         }
         const Masses middle = beyond(static_cast<double>((out << 1 | 1) << i) - 0.5);
         const int node = bits_node + 4 * size + (known == 0 ? 0 : 1 + static_cast<int>(out & 1));
-        const bool up = bit(coder, b, node, difference(middle, past_), difference(from_, middle));
+        const bool up = bit(coder, b, node, middle - past_, from_ - middle);
         (up ? from_ : past_) = middle;
         out = out << 1 | static_cast<std::uint32_t>(up);
     }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "stream/bit_model.h"
+#include "stream/two.h"
 
 #include <array>
 #include <cmath>
@@ -9,18 +10,34 @@
 
 namespace multires::stream {
 
-/// Where a number is thought to be: a symmetric distribution about a mean.
-struct Expert {
-    double mean = 0;
-    double over = 1;     ///< 1 / its width
-    bool heavy = false;  ///< Student's of two degrees of freedom, for what is right or quite wrong; else logistic
+/// Where two experts think that a number is: symmetric distributions about means, the first one logistic, the second
+/// one Student's of two degrees of freedom, for what is right or quite wrong.
+struct Experts {
+    Two mean;
+    Two over = 1;  ///< 1 / their widths
 
-    /// Probability of more than x on a side of 0.
+    /// Probabilities of more than x on a side of 0.
     /// @param side  1: above x; -1: below -x
-    double beyond(double x, double side) const {
-        const double t = (x - side * mean) * over;
-        if (!heavy) return 1 / (1 + exponential(t));
-        const double half = 0.5 / std::sqrt(1 + t * t), rest = t * half;
+    Two beyond(double x, double side) const {
+        const Two t = (x - side * mean) * over;
+        const double second = t.second();
+        const Two shares = Two(1, 0.5) / Two(1 + exponential(t.first()), std::sqrt(1 + second * second));
+        return {shares.first(), student(second, shares.second())};
+    }
+
+    /// The same on both sides.
+    void beyond(double x, Two& below, Two& above) const {
+        const Two from = x, t_below = (from + mean) * over, t_above = (from - mean) * over;
+        const Two logistic(t_below.first(), t_above.first()), heavy(t_below.second(), t_above.second());
+        const Two first = 1 / (1 + exponential(logistic)), half = 0.5 / root(1 + heavy * heavy);
+        below = Two(first.first(), student(heavy.first(), half.first()));
+        above = Two(first.second(), student(heavy.second(), half.second()));
+    }
+
+private:
+    /// @param half  0.5 / sqrt(1 + t^2)
+    static double student(double t, double half) {
+        const double rest = t * half;
         return t > 0 ? half * half / (0.5 + rest) : 0.5 - rest;
     }
 };
@@ -40,7 +57,7 @@ public:
     };
     /// What experts say, means relative to the prediction.
     struct Opinions {
-        std::array<Expert, experts> expert;
+        Experts experts;
         int support = 0;  ///< 0..7 which weights to use
     };
 
@@ -53,9 +70,9 @@ private:
     static constexpr int nodes = 160, supports = 8;
 
     /// Of each expert, what it thinks of an interval and of the parts it is cut into.
-    using Masses = std::array<double, experts>;
+    using Masses = Two;
 
-    bool bit(BitCoder& coder, bool value, int node, const Masses& one, const Masses& none);
+    bool bit(BitCoder& coder, bool value, int node, Masses one, Masses none);
     int code_size(BitCoder& coder, std::uint32_t magnitude);
     std::uint32_t code_bits(BitCoder& coder, std::uint32_t magnitude, int size);
     Masses beyond(double x) const;
@@ -65,7 +82,7 @@ private:
     const Contexts* contexts_ = nullptr;  ///< of the number that is being coded, as all that follows
     const Opinions* opinions_ = nullptr;
     double side_ = 1;
-    Masses from_{}, past_{};  ///< beyond the begin and the end of the interval it is known to be in
+    Masses from_, past_;  ///< beyond the begin and the end of the interval it is known to be in
 };
 
 }  // namespace multires::stream

@@ -104,17 +104,36 @@ void StarMesh::star(Index u, Star& star) const {
     }
 }
 
-void StarMesh::prefetch(const Index* vertices, int count) const {
-    constexpr int most = 8, steps = 7;  // of the chains that are followed at a time; most stars have six faces
-    std::array<Index, most> h{};
-    count = std::min(count, most);
-    for (int k = 0; k < count; ++k) h[k] = vertex_[vertices[k]].corner;
-    for (int step = 0; step < steps; ++step)
-        for (int k = 0; k < count; ++k) {
-            if (h[k] < 0) continue;
-            __builtin_prefetch(&vertex_[target(h[k])]);
-            h[k] = twin(previous(h[k]));
-        }
+Index StarMesh::prefetch(Index u, int step, Index last) const {
+    if (step == 0) {
+        __builtin_prefetch(&vertex_[u]);
+        return -1;
+    }
+    Index h = last;
+    if (step == 1) {
+        h = vertex_[u].corner;
+    } else {
+        if (h < 0) return -1;
+        __builtin_prefetch(&vertex_[target(h)]);
+        h = twin(previous(h));
+    }
+    if (h >= 0) __builtin_prefetch(&half_[face_of(h)]);
+    return h;
+}
+
+void StarMesh::prefetch_faces_beside(const Star& star) const {
+    for (const Index h : star.leaving) {
+        const Index across = twin(next(h));
+        if (across >= 0) __builtin_prefetch(&half_[face_of(across)]);
+    }
+}
+
+void StarMesh::prefetch_vertices_beside(const Star& star, const Fan& fan) const {
+    const Index d = star.faces(), from = fan.kind == Fan::last ? d - fan.faces : fan.start;
+    for (Index i = from; i < from + fan.faces; ++i) {
+        const Index across = twin(next(star.leaving[i < d ? i : i - d]));
+        if (across >= 0) __builtin_prefetch(&vertex_[origin(previous(across))]);
+    }
 }
 
 bool StarMesh::allows(const Star& star, const Fan& fan) {

@@ -64,8 +64,15 @@ public:
     /// The star of a regular vertex.
     void star(Index u, Star& star) const;
 
-    /// Brings the stars of some regular vertices into the cache.
-    void prefetch(const Index* vertices, int count) const;
+    /// Brings a part of the star of a regular vertex into the cache that is soon looked at. What a step asks for should
+    /// have come when the next is taken.
+    /// @param step  from 0; the sixth face comes with step 7
+    /// @param last  what the step before has returned
+    Index prefetch(Index u, int step, Index last) const;
+
+    /// Brings the faces beside a star, or the vertices beside them, into the cache.
+    void prefetch_faces_beside(const Star& star) const;
+    void prefetch_vertices_beside(const Star& star, const Fan& fan) const;
 
     /// Splits a new vertex, vertices(), off u.
     /// @param star  that of u, regular

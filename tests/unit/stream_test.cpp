@@ -4,6 +4,8 @@
 #include "stream/bit_model.h"
 #include "stream/decoder.h"
 #include "stream/encoder.h"
+#include "stream/regression.h"
+#include "stream/two.h"
 
 #include <algorithm>
 #include <array>
@@ -408,6 +410,51 @@ TEST(Stream, FilesAreSmall) {
     const Mesh mesh = shapes::torus(60, 40);
     const double size = static_cast<double>(encode(layer_of(mesh), {}).size());
     EXPECT_LT(8 * size / 2400, 20);  // 18.6 when this was written; packed as 36 + 2 * 36 bits: 108
+}
+
+TEST(Stream, TwoNumbersSideBySideAreWhatTheyAreOneByOne) {
+    using stream::Two;
+    const auto expect_same = [](Two both, double a, double b) {
+        EXPECT_EQ(both.first(), a);
+        EXPECT_EQ(both.second(), b);
+    };
+    for (int i = 0; i < 2000; ++i) {
+        const double x = std::pow(1.03, i - 1000), y = 100 * std::sin(1.7 * i);
+        expect_same(exponential(Two(y, x)), stream::exponential(y), stream::exponential(x));
+        expect_same(logarithm(Two(x, y * y)), stream::logarithm(x), stream::logarithm(y * y));
+        expect_same(where_positive(Two(x, y), Two(y, x)), y > 0 ? x : 0, y);
+        expect_same(where_positive(Two(x, y), Two(y, x), Two(1, 2)), y > 0 ? x : 1, y);
+        std::array<std::int64_t, 2> steps{};
+        for (const int per_octave : {2, 3}) {
+            store_octaves(Two(x, 1 / x), per_octave, 5000, steps.data());
+            EXPECT_EQ(steps[0], stream::octave_steps(x, per_octave) + 5000);
+            EXPECT_EQ(steps[1], stream::octave_steps(1 / x, per_octave) + 5000);
+        }
+        store_whole(Two(y, 2 * y), steps.data());
+        EXPECT_EQ(static_cast<std::int32_t>(steps[0]), static_cast<std::int32_t>(y));
+        EXPECT_EQ(static_cast<std::int32_t>(steps[1]), static_cast<std::int32_t>(2 * y));
+    }
+    const double none = std::numeric_limits<double>::quiet_NaN();
+    expect_same(larger(Two(none, 3), 2), 2, 3);
+    expect_same(smaller(Two(none, 3), 2), 2, 2);
+}
+
+TEST(Stream, RegressionsSideBySideAreWhatTheyAreOneByOne) {
+    const std::array<double, 3> start = {0.5, 0, 1};
+    stream::Regression<3, stream::Two> both(start);
+    stream::Regression<3> first(start), second(start);
+    for (int i = 0; i < 200; ++i) {
+        // The second one's numbers are none at first, so that its weights stay.
+        const double x = std::sin(1.3 * i), y = i < 20 ? std::numeric_limits<double>::quiet_NaN() : std::cos(0.7 * i);
+        both.learn({1, stream::Two(x, y), 2}, stream::Two(3 * x, i)), both.end_sample();
+        first.learn({1, x, 2}, 3 * x), first.end_sample();
+        second.learn({1, y, 2}, i), second.end_sample();
+        const stream::Two out = both.predict({1, 2, 3});
+        EXPECT_EQ(out.first(), first.predict({1, 2, 3}));
+        EXPECT_EQ(out.second(), second.predict({1, 2, 3}));
+    }
+    EXPECT_NEAR(first.predict({0, 1, 0}), 3, 0.01);
+    EXPECT_EQ(second.predict({1, 2, 3}), 3.5);
 }
 
 TEST(Stream, ExponentialAndLogarithmAreThoseOfTheLibrary) {
