@@ -48,10 +48,13 @@ Array<Index> places_of(const Step& step, const Array<Index>& coarser) {
 /// Local vertices with places in [begin, end), in local order. That order runs along the surface if the input's does,
 /// so rows in it find their neighbours near each other.
 Array<Index> rows_between(const Array<Index>& place, Index begin, Index end) {
-    Array<Index> rows(end - begin);
-    auto at = rows.begin();
-    for (std::size_t i = 0; i < place.size(); ++i)
-        if (place[i] >= begin && place[i] < end) *at++ = static_cast<Index>(i);
+    Array<Index> rows(end - begin + 1);  // one more: all write, which are in is hard to predict
+    Index* at = rows.data();
+    for (std::size_t i = 0; i < place.size(); ++i) {
+        *at = static_cast<Index>(i);
+        at += (place[i] >= begin) & (place[i] < end);
+    }
+    rows.resize(end - begin);
     return rows;
 }
 

@@ -323,15 +323,33 @@ double mean_edge(const Rings& rings, const Positions& p) {
     return rings.neighbor.empty() ? 0 : sum / static_cast<double>(rings.neighbor.size());
 }
 
-/// Numbers even and odd vertices in their order.
+/// Numbers even and odd vertices in their order. Which is which is hard to predict: no branch.
 void number(const Array<Index>& parent, Index odd, Step& step) {
     const Index n = static_cast<Index>(parent.size());
     step.code.resize(n);
-    step.parent.resize(odd);
-    for (Index i = 0, evens = 0, odds = 0; i < n; ++i) {
-        step.code[i] = parent[i] < 0 ? evens++ : ~odds;
-        if (parent[i] >= 0) step.parent[odds++] = parent[i];
+    step.parent.resize(odd + 1);  // an even vertex writes, too, where the next odd one will
+    for (Index i = 0, odds = 0; i < n; ++i) {
+        const bool is_odd = parent[i] >= 0;
+        step.code[i] = is_odd ? ~odds : i - odds;
+        step.parent[odds] = parent[i];
+        odds += is_odd;
     }
+    step.parent.resize(odd);
+}
+
+/// Where the rings of even vertices begin after a step.
+/// @param degree  #V: their sizes
+Array<Index> offsets_after(const Step& step, const Array<Index>& degree) {
+    const Index n = static_cast<Index>(degree.size());
+    Array<Index> offset(n - static_cast<Index>(step.parent.size()) + 1);
+    for (Index i = 0, to = 0, at = 0; i < n; ++i) {  // no branch, as above
+        const bool even = step.code[i] >= 0;
+        offset[to] = at;
+        to += even;
+        at += even ? degree[i] : 0;
+        offset[to] = at;
+    }
+    return offset;
 }
 
 /// The state after a step: even vertices only, renumbered in their order.
@@ -343,11 +361,9 @@ State next_state(const State& s, const Step& step, const Array<Index>& degree, c
     const bool has_features = !s.rings.feature.empty();
     State t;
     t.rings.kind.resize(m);
-    t.rings.offset.resize(m + 1);
+    t.rings.offset = offsets_after(step, degree);
     t.positions.resize(m);
     if (!options.memoryless) t.quadric.resize(m), t.error.resize(m);
-    for (Index i = 0; i < n; ++i)
-        if (step.code[i] >= 0) t.rings.offset[step.code[i] + 1] = t.rings.offset[step.code[i]] + degree[i];
     t.rings.neighbor.resize(t.rings.offset[m]);
     if (has_features) t.rings.feature.resize(t.rings.offset[m]);
     const auto ring = [&](Index i) { return ring_of(s.rings, i); };
