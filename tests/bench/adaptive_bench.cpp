@@ -26,14 +26,15 @@ Result run(const Layer& layer, const AdaptiveOptions& o) {
 
 void AdaptiveHierarchy(benchmark::State& state) {
     const Layer& layer = scan(static_cast<Index>(state.range(0)));
-    for (auto _ : state) benchmark::DoNotOptimize(adaptive_hierarchy(layer, {}, Progress()));
+    for (auto _ : state) benchmark::DoNotOptimize(adaptive_hierarchy(layer, adaptive_rings(layer, {}), {}, Progress()));
     per_vertex(state, layer);
 }
 
 void AdaptiveInsertion(benchmark::State& state) {
     const Layer& layer = scan(static_cast<Index>(state.range(0)));
-    const Hierarchy h = adaptive_hierarchy(layer, {}, Progress());
-    for (auto _ : state) benchmark::DoNotOptimize(insertion_order(h, importance(layer, h, {})));
+    const Rings rings = adaptive_rings(layer, {});
+    const Hierarchy h = adaptive_hierarchy(layer, rings, {}, Progress());
+    for (auto _ : state) benchmark::DoNotOptimize(insertion_order(h, importance(layer, rings, h, {})));
     per_vertex(state, layer);
 }
 

@@ -222,7 +222,7 @@ TEST(Adaptive, ThresholdAboveEverythingIsTheBase) {
         SCOPED_TRACE(name);
         const AdaptiveOptions o = with_threshold(1e9);
         const Result r = run(layer_of(mesh), o);
-        const Hierarchy h = adaptive_hierarchy(layer_of(mesh), o, Progress());
+        const Hierarchy h = adaptive_hierarchy(layer_of(mesh), adaptive_rings(layer_of(mesh), o), o, Progress());
         EXPECT_EQ(vertices_of(r), std::set<Index>(h.order.begin(), h.order.begin() + h.size.back()));
         EXPECT_EQ(value(r, "vertices"), value(r, "base_vertices"));
         EXPECT_EQ(value(r, "faces"), value(r, "base_faces"));

@@ -95,7 +95,10 @@ std::vector<std::uint8_t> seam_edges(const Layer& layer) {
 class Reconstructor {
 public:
     Reconstructor(const Layer& layer, const AdaptiveOptions& options, const Hierarchy& h, const Insertion& insertion)
-        : layer_(layer), options_(options), h_(h), insertion_(insertion), region_(selected_region(layer)) {}
+        : layer_(layer), options_(options), h_(h), insertion_(insertion), region_(selected_region(layer)) {
+        const auto base = mesh_of_set(h, layer.mesh.faces, inserted(insertion, h.size.back()));
+        base_faces_ = static_cast<int>(base.faces.size());
+    }
 
     Reconstruction make(Index count, bool measure) const {
         Reconstruction r;
@@ -126,14 +129,11 @@ public:
     }
 
     /// Faces of the base mesh.
-    int base_faces() const {
-        const auto mesh = mesh_of_set(h_, layer_.mesh.faces, inserted(insertion_, h_.size.back()));
-        return static_cast<int>(mesh.faces.size());
-    }
+    int base_faces() const { return base_faces_; }
 
     /// The largest prefix with at most so many faces, and at least `least` vertices.
     Index count_for_faces(Index least, int most) const {
-        int faces = base_faces();
+        int faces = base_faces_;
         Index count = h_.size.back();
         while (count < h_.vertices()) {
             faces += insertion_.faces[insertion_.order[count]];
@@ -149,6 +149,7 @@ private:
     const Hierarchy& h_;
     const Insertion& insertion_;
     std::vector<std::uint8_t> region_;
+    int base_faces_;
 };
 
 void report_thresholds(AdaptiveOptions o, double scale, Report& report) {
@@ -180,11 +181,13 @@ HierarchyOptions adaptive_collapses(const AdaptiveOptions& options) {
     h.memoryless = true;
     h.boundary_weight = boundary_weight;
     h.flaps = uses_flaps(options.op);
+    h.even_rings = false;
     return h;
 }
 
-Hierarchy adaptive_hierarchy(const Layer& layer, const AdaptiveOptions& options, const Progress& progress) {
-    return build_hierarchy(adaptive_rings(layer, options), layer.mesh.positions, adaptive_collapses(options),
+Hierarchy adaptive_hierarchy(const Layer& layer, Rings rings, const AdaptiveOptions& options,
+                             const Progress& progress) {
+    return build_hierarchy(std::move(rings), layer.mesh.positions, adaptive_collapses(options),
                            [&](double f) { progress.report(f, "Building the hierarchy"); });
 }
 
@@ -218,9 +221,10 @@ Result adaptive_reconstruction(const Layer& input, const AdaptiveOptions& given,
         if (std::optional<Result> moved = moving_reconstruction(layer, o, rest.part(0, 0.5))) return std::move(*moved);
         rest = rest.part(0.5, 1);
     }
-    const Hierarchy h = adaptive_hierarchy(layer, o, rest.part(0, 0.6));
+    const Rings rings = adaptive_rings(layer, o);
+    const Hierarchy h = adaptive_hierarchy(layer, rings, o, rest.part(0, 0.6));
     rest.report(0.6, "Measuring the details");
-    const Insertion insertion = insertion_order(h, importance(layer, h, o));
+    const Insertion insertion = insertion_order(h, importance(layer, rings, h, o));
     const Reconstructor reconstructor(layer, o, h, insertion);
     const Index base = h.size.back(), least = insertion.count(std::numeric_limits<double>::infinity());
     const double unit = o.unit == LengthUnit::percent ? box_diagonal(layer) / 100 : 1;

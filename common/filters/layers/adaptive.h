@@ -74,13 +74,19 @@ Result adaptive_reconstruction(const Layer& layer, const AdaptiveOptions& option
 
 constexpr double boundary_weight = 3;  ///< of the boundary in costs and geometric details
 
-/// The hierarchy adaptive reconstruction uses: memoryless costs, small sets. With use_texcoord, seams of wedge texture
-/// coordinates are features: vertices on them go only along them.
-Hierarchy adaptive_hierarchy(const Layer& layer, const AdaptiveOptions& options, const Progress& progress);
+/// Rings of the layer, with features marked. With use_texcoord, seams of wedge texture coordinates are features, too:
+/// vertices on them go only along them.
+Rings adaptive_rings(const Layer& layer, const AdaptiveOptions& options);
+
+/// The hierarchy adaptive reconstruction uses: memoryless costs, small sets. Has no even rings.
+/// @param rings  adaptive_rings()
+Hierarchy adaptive_hierarchy(const Layer& layer, Rings rings, const AdaptiveOptions& options, const Progress& progress);
 
 /// How much each vertex matters, by place: largest ratio of a detail and its threshold, infinity for a threshold of 0
 /// and in the region of interest. See adaptive_importance.cpp.
-std::vector<double> importance(const Layer& layer, const Hierarchy& hierarchy, const AdaptiveOptions& options);
+/// @param rings  adaptive_rings()
+std::vector<double> importance(const Layer& layer, const Rings& rings, const Hierarchy& hierarchy,
+                               const AdaptiveOptions& options);
 
 /// Moves the vertices of a reconstruction to where they fit the input best: least squares of the distances of the
 /// input's vertices along the normals of the faces nearest to them. No face turns by more than 60 degrees against where

@@ -20,29 +20,27 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Details of the positions by the quadrics that were summed up when the vertex was removed.
-std::vector<double> quadric_details(const Layer& layer, const Hierarchy& h, Criterion criterion) {
+/// Details of the positions by the quadrics that are summed up when vertices are removed.
+/// @param rings  of the input
+std::vector<double> quadric_details(const Layer& layer, const Rings& rings, const Hierarchy& h, Criterion criterion) {
     const Index n = h.vertices();
     std::vector<double> detail(n, 0);
     if (h.levels.empty()) return detail;
     const double scale = 1 / box_diagonal(layer);  // costs neither overflow nor underflow
     Positions at(n);
-    parallel_for(n, [&](Index p) { at[p] = (h.positions[p] - h.positions[0]) * scale; });
+    parallel_for(n, [&](Index v) { at[v] = (layer.mesh.positions[v] - h.positions[0]) * scale; });
+    Array<Index> place_of(n);
+    parallel_for(n, [&](Index p) { place_of[h.order[p]] = p; });
     std::vector<Quadric> q(n);
-    const auto take = [&](const Rings& rings, RowRange rows) {
-        parallel_for(rows.size(), [&](Index i) {
-            const Index r = rows.begin + i, p = rings.vertex(r);
-            q[p] = collapse::vertex_quadric(p, collapse::ring_of(rings, r), at, boundary_weight);
-        });
-    };
-    take(h.even[0], {0, h.even[0].rows()});
-    take(h.odd, h.levels[0].odd);
+    parallel_for(n, [&](Index v) {
+        q[place_of[v]] = collapse::vertex_quadric(v, collapse::ring_of(rings, v), at, boundary_weight);
+    });
     double weight = 0;
     for (const Quadric& quadric : q) weight += quadric.weight();
     const double average = weight / std::max<Index>(1, n - h.isolated);
     for (Index p = n - 1; p >= h.size.back(); --p) {  // children before their parents
         const Index u = h.parent[p];
-        const Vec3 d = at[u] - at[p];
+        const Vec3 d = at[h.order[u]] - at[h.order[p]];
         const double moved = q[p].at(d), own = q[p].weight();
         const double square = criterion == Criterion::area_error ? (moved - q[p].c) / average
                               : own > 0                          ? moved / own
@@ -178,7 +176,7 @@ std::vector<std::uint8_t> selected_region(const Layer& layer) {
     return in;
 }
 
-std::vector<double> importance(const Layer& layer, const Hierarchy& h, const AdaptiveOptions& o) {
+std::vector<double> importance(const Layer& layer, const Rings& rings, const Hierarchy& h, const AdaptiveOptions& o) {
     std::vector<double> largest(h.vertices(), 0);
     const auto add = [&](const DetailThreshold& t, double unit, const auto& details) {
         if (!t.use) return;
@@ -189,7 +187,7 @@ std::vector<double> importance(const Layer& layer, const Hierarchy& h, const Ada
     };
     add(o.geometry, o.unit == LengthUnit::percent ? box_diagonal(layer) / 100 : 1, [&] {
         return o.criterion == Criterion::detail ? field_details(h, field_of(h.positions), o.op)
-                                                : quadric_details(layer, h, o.criterion);
+                                                : quadric_details(layer, rings, h, o.criterion);
     });
     add(o.color, 1, [&] {
         return attribute_details(layer, h, o.op, AttributeKind::color, "use_color: the mesh has no vertex colour");

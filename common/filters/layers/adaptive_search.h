@@ -63,9 +63,6 @@ Result result_of(Reconstruction r, const Layer& layer, bool with_positions, Repo
 /// #V, 1: selected, or a corner of a selected face.
 std::vector<std::uint8_t> selected_region(const Layer& layer);
 
-/// Rings of the layer, with features and seams marked.
-Rings adaptive_rings(const Layer& layer, const AdaptiveOptions& options);
-
 /// How collapses are chosen.
 HierarchyOptions adaptive_collapses(const AdaptiveOptions& options);
 
