@@ -1,5 +1,6 @@
 #include "hierarchy/hierarchy.h"
 
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "hierarchy/independent_sets.h"
 #include "hierarchy/renumber.h"
@@ -213,18 +214,38 @@ Simplified mesh_of_rest(const Mesh& mesh, const Array<Index>& became, const Norm
     return out;
 }
 
+/// See Hierarchy::beside.
+Index vertices_beside(const Rings& rings) {
+    DisjointSets parts(rings.rows());
+    for (Index v = 0; v < rings.rows(); ++v)
+        for (Index e = rings.offset[v]; e < rings.offset[v + 1]; ++e)
+            if (rings.neighbor[e] > v) parts.join(v, rings.neighbor[e]);
+    Array<Index> size(rings.rows(), 0);  // of the part whose root a vertex is
+    for (Index v = 0; v < rings.rows(); ++v) ++size[parts.find(v).root];
+    Index sum = 0, largest = 0;
+    for (const Index vertices : size) {
+        if (vertices > 1) sum += std::min<Index>(vertices, 4);
+        largest = std::max(largest, vertices);
+    }
+    return std::max<Index>(0, sum - std::min<Index>(largest, 4));
+}
+
 }  // namespace
 
 Hierarchy build_hierarchy(Rings rings, const Positions& positions, const HierarchyOptions& options, const Tick& tick) {
+    const Index beside = vertices_beside(rings);
+    HierarchyOptions with_parts = options;
+    with_parts.base_vertices += beside;
     const Index irregular = static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::irregular));
     const Index isolated = static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::isolated));
     Normalised normalised(positions);
     Hierarchy h = options.grouping == Grouping::independent_sets
-                      ? by_sets(std::move(rings), std::move(normalised.positions), options, tick)
-                      : sequential(rings, normalised.positions, options, tick);
+                      ? by_sets(std::move(rings), std::move(normalised.positions), with_parts, tick)
+                      : sequential(rings, normalised.positions, with_parts, tick);
     for (double& length : h.mean_edge) length *= normalised.diagonal;
     h.irregular = irregular;
     h.isolated = isolated;
+    h.beside = beside;
     h.positions.resize(positions.size());
     parallel_for(h.vertices(), [&](Index place) { h.positions[place] = positions[h.order[place]]; });
     return h;

@@ -36,7 +36,7 @@ struct HierarchyOptions {
                                  ///< (Lindstrom and Turk 1998): less error for the same number of vertices
     double boundary_weight = 1;  ///< independent sets, > 0: of the planes that stand on the boundary
     double level_ratio = 0;      ///< in [0, 1): a level keeps this share of its vertices; 0: one vertex per level
-    Index base_vertices = 100;   ///< stop here, or earlier if no collapse is allowed any more
+    Index base_vertices = 100;  ///< stop here (and at Hierarchy::beside), or earlier if no collapse is allowed any more
     double normal_limit_degrees = 60;  ///< a collapse may turn no face normal by more than this, in (0, 180]
     /// Weight of the edge-length term beside the quadric: cost = (Q_v + Q_u)(p_u) + weight * area_v * |p_v - p_u|^2.
     /// 0: quadric only (Roy); larger values keep vertices of a level evenly spaced, which sharpens bands. With any, and
@@ -103,6 +103,7 @@ struct Hierarchy {
     Array<LatticePlace> lattice;  ///< #V, or empty: the hierarchy is not that of triangular grids
     Index irregular = 0;          ///< vertices kept because their neighbourhood is not a disk or half disk
     Index isolated = 0;           ///< vertices kept because no face holds them
+    Index beside = 0;  ///< vertices kept for parts beside the largest one: four for each, or three if it has no more
 
     Index vertices() const { return static_cast<Index>(order.size()); }
 };

@@ -2,8 +2,8 @@
 
 #include "base/parallel.h"
 #include "base/reduce.h"
-#include "measure/measure.h"
 #include "mesh/adjacency.h"
+#include "pyramid/wavelengths.h"
 
 #include <algorithm>
 #include <cmath>
@@ -35,33 +35,6 @@ Hierarchy hierarchy_of(const Layer& layer, const PyramidOptions& options, const 
     const Progress building = progress.part(0.05, 0.6);
     return build_hierarchy(std::move(rings), layer.mesh.positions, hierarchy_options(options),
                            [&](double f) { building.report(f, "Building the pyramid"); });
-}
-
-/// Twice the mean edge length of every level.
-std::vector<double> wavelengths(const Hierarchy& h, const Faces& faces) {
-    const std::size_t levels = h.levels.size() + 1;
-    std::vector<double> out(levels, 0);
-    const auto exact = [&](std::size_t k) {
-        if (!h.lattice.empty() && k > 0)
-            return std::ldexp(out[0], static_cast<int>(k));  // level by level twice as long
-        return 2 *
-               (h.mean_edge.empty() ? mean_edge_length(level_mesh(h, faces, k).faces, h.positions) : h.mean_edge[k]);
-    };
-    // With thousands of levels, a few are measured and those between follow, in the logarithm.
-    constexpr std::size_t most = 64;
-    std::size_t last = 0;
-    out[0] = exact(0);
-    for (std::size_t k = 1; k < levels; ++k) {
-        const double shrunk = std::log(static_cast<double>(h.size[last]) / h.size[k]);
-        if (levels > most && k + 1 < levels && shrunk < 0.2) continue;
-        out[k] = exact(k);
-        for (std::size_t m = last + 1; m < k; ++m) {
-            const double t = shrunk > 0 ? std::log(static_cast<double>(h.size[last]) / h.size[m]) / shrunk : 0;
-            out[m] = out[last] > 0 ? out[last] * std::pow(out[k] / out[last], t) : 0;
-        }
-        last = k;
-    }
-    return out;
 }
 
 template <class Values>
@@ -102,7 +75,7 @@ Pyramid::Pyramid(const Layer& layer, const PyramidOptions& options, const Progre
     scheme_ = make_scheme(hierarchy_, options.scheme);
     progress.report(0.8, "Computing details");
     Field f = field_of(hierarchy_.positions);
-    const std::vector<double> wavelength = wavelengths(hierarchy_, layer.mesh.faces);
+    const std::vector<double> wavelength = wavelengths(hierarchy_, layer.mesh.faces, options.hierarchy.base_vertices);
     hierarchy_.positions = Positions();  // the layer has them
     coefficients_ = scheme_->analyse(std::move(f), options.scheme.storage);
     levels_ = describe(hierarchy_, coefficients_, wavelength);

@@ -7,6 +7,7 @@
 #include "filters/analysis/scale_space.h"
 #include "filters/calibration.h"
 #include "measure/vertex_normals.h"
+#include "mesh/specks.h"
 #include "mesh/validation.h"
 
 #include <algorithm>
@@ -31,7 +32,9 @@ std::optional<double> most_skewed(const Spline& spline, const Layer& layer, cons
     for (int i = 0; i < 16 && finest * std::pow(2, 0.5 * i) <= coarsest; ++i)
         cutoffs.push_back(finest * std::pow(2, 0.5 * i));
     if (cutoffs.empty()) return std::nullopt;
-    const std::vector<double> area = vertex_areas(mesh), rim = distance_from_rim(mesh, cutoffs.back() / 2);
+    const auto large = without_specks(layer);
+    const std::vector<double> area = vertex_areas(large ? large->layer.mesh : mesh),
+                              rim = distance_from_rim(mesh, cutoffs.back() / 2);
     std::vector<double> skewness;
     for_each_low_pass(spline, mesh, cutoffs, choice_tolerance, progress, [&](std::size_t b, const Positions& low) {
         const Array<Vec3> normal = vertex_normals(mesh.faces, low);

@@ -202,7 +202,8 @@ Result generate_texcoord(const Layer& layer, const TexcoordOptions& options, Ses
     const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
     require_starts_anywhere(options.pyramid.scheme);
     std::size_t level = 0;
-    while (level + 1 < pyramid->levels().size() && pyramid->levels()[level].vertices > options.coarse_vertices) ++level;
+    const Index most = options.coarse_vertices + pyramid->hierarchy().beside;
+    while (level + 1 < pyramid->levels().size() && pyramid->levels()[level].vertices > most) ++level;
     session.progress.report(0.9, "Subdividing texture coordinates");
     const Axes axes = axes_of(layer.mesh, options);
     const Field values = subdivided(layer, options, *pyramid, level, axes);

@@ -47,8 +47,9 @@ Cut given_level(const Hierarchy& h, int level) {
 }
 
 Cut automatic_level(const Hierarchy& h, bool whole_levels) {
-    const auto share = [&](Index count) {  // of the vertices that faces use
-        return static_cast<double>(count - h.isolated) / std::max<Index>(1, h.vertices() - h.isolated);
+    const Index always = h.isolated + h.beside;
+    const auto share = [&](Index count) {  // of the vertices that may go
+        return static_cast<double>(count - always) / std::max<Index>(1, h.vertices() - always);
     };
     Cut best{0, h.size[0]};
     const auto off = [&](Index count) { return std::abs(std::log(std::max(share(count), 1e-9) / 0.25)); };

@@ -5,6 +5,7 @@
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
+#include "mesh/specks.h"
 #include "mesh/validation.h"
 #include "normals/normal_field.h"
 #include "normals/spikes.h"
@@ -152,16 +153,21 @@ Result denoise(const Layer& layer, const DenoiseOptions& options, Session& sessi
     const std::vector<double> weights = region_weights(layer, options.region);
     const std::vector<double> confidence = confidence_of(layer, options);
 
+    const auto large = without_specks(start);
+    const Layer& noisy = large ? large->layer : start;
+    if (large)
+        result.report.say("Specks, parts too small to tell noise from shape, stay as they are: " +
+                          std::to_string(large->specks) + ".");
     if (options.method == DenoiseMethod::normal_field)
-        result.report.add("noise", noise_deviation(start.mesh), "mesh units");
+        result.report.add("noise", noise_deviation(noisy.mesh), "mesh units");
     const double given =
         options.unit == ThresholdUnit::percent ? options.threshold / 100 * box_diagonal(start) : options.threshold;
     std::vector<double> movement = weights;  // how far each vertex may follow, and be shifted
     Positions after;
     if (options.method == DenoiseMethod::automatic || options.method == DenoiseMethod::normal_field) {
         after = options.method == DenoiseMethod::automatic
-                    ? by_automatic(start, options, given, session, result.report)
-                    : by_normal_field(start, options, given, session, result.report);
+                    ? by_automatic(noisy, options, given, session, result.report)
+                    : by_normal_field(noisy, options, given, session, result.report);
         // Here confidence scales the movement; thresholding takes it as a local threshold.
         std::vector<double> doubt = confidence;
         for (double& c : doubt) c = 1 - c;
@@ -171,7 +177,7 @@ Result denoise(const Layer& layer, const DenoiseOptions& options, Session& sessi
         else
             for (std::size_t i = 0; i < doubt.size(); ++i) movement[i] *= doubt[i];
     } else {
-        after = by_threshold(start, options, given, confidence, session, result.report);
+        after = by_threshold(noisy, options, given, confidence, session, result.report);
     }
     blend(layer.mesh.positions, weights, after);
     if (options.keep_volume) {
