@@ -235,7 +235,7 @@ Index vertices_beside(const Rings& rings) {
 Hierarchy build_hierarchy(Rings rings, const Positions& positions, const HierarchyOptions& options, const Tick& tick) {
     const Index beside = vertices_beside(rings);
     HierarchyOptions with_parts = options;
-    with_parts.base_vertices += beside;
+    with_parts.base_vertices = std::min(options.base_vertices, rings.rows()) + beside;
     const Index irregular = static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::irregular));
     const Index isolated = static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::isolated));
     Normalised normalised(positions);
