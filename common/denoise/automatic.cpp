@@ -393,6 +393,7 @@ void set_varying(std::vector<double> deviation, Measured& m) {
     m.deviation = std::move(deviation);
     m.along_normals = rms(m.deviation);
     m.certain = certain_if_varying;
+    m.noise.by_edges = 1;
     m.noise.along_normals = m.along_normals;
     m.noise.at_least = std::sqrt(m.certain) * m.along_normals;
 }
@@ -427,7 +428,7 @@ Measured measured(const Faces& faces, const Positions& positions, const Incidenc
     m.noise = rounded ? *rounded : surface_noise(faces, m.start, at, near, edge);
     if (options.deviation) {
         m.noise.along_normals = m.noise.at_least = *options.deviation;
-        m.noise.white = 1;
+        m.noise.white = m.noise.by_edges = 1;
         m.noise.axis.reset();
     }
     m.deviation = deviations(faces, m.start, near, m.noise, edge);
@@ -509,6 +510,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     stats.voxels = found.voxels;
     stats.spikes = found.spikes;
     stats.axis = found.noise.axis.has_value();
+    stats.by_edges = found.noise.by_edges;
     if (!found.is_certain(edge)) return found.start;
 
     tick(0.25, "Choosing");

@@ -22,6 +22,7 @@ struct AutomaticStats {
     double most_deviation = 0;             ///< where it is largest
     bool varies = false;                   ///< clearly, from place to place
     bool all_directions = false;           ///< the noise was found within the surface too
+    double by_edges = 1;                   ///< share of what looked like noise: see SurfaceNoise
     bool axis = false;                     ///< it goes along one axis of space
     double step = 0;                       ///< of the lattice that the coordinates were rounded to, mesh units; 0: none
     bool voxels = false;                   ///< the lattice is that of voxels, the surface their boundary

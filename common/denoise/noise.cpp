@@ -1,6 +1,7 @@
 #include "denoise/noise.h"
 
 #include "base/parallel.h"
+#include "denoise/edge_fit.h"
 #include "denoise/energies.h"
 #include "denoise/white_share.h"
 #include "measure/vertex_normals.h"
@@ -11,9 +12,10 @@
 namespace multires {
 namespace {
 
-constexpr double spread = 3.5;  ///< see quiet_energy()
-constexpr double leak = 0.3;    ///< share of the bends along edges that passes for noise in third differences
-constexpr int bend_steps = 3;   ///< Taubin's steps after which first differences show bends and hardly any noise
+constexpr double spread = 3.5;         ///< see quiet_energy()
+constexpr double leak = 0.3;           ///< share of the bends along edges that passes for noise in third differences
+constexpr Index coarse_up_to = 25000;  ///< vertices; of larger meshes the edges are not asked, for time
+constexpr int bend_steps = 3;          ///< Taubin's steps after which first differences show bends and hardly any noise
 
 /// 1 for energies that shape could have, 0 for those of strong noise, beside which texture is nothing.
 double weakness(double energy, double edge) { return std::clamp((0.1 - std::sqrt(energy) / edge) / 0.07, 0.0, 1.0); }
@@ -184,6 +186,19 @@ void add_axis(const Findings& f, const Array<Vec3>& normal, SurfaceNoise& noise)
     noise.at_least = std::max(noise.at_least, std::sqrt(certain * like_noise(f.peakedness_along_axis) * square));
 }
 
+/// Leaves out what the edges know of. The less there is left the less certain it is.
+void leave_shape(const Faces& faces, const Positions& positions, const Neighbours& near, const Array<Vec3>& normal,
+                 SurfaceNoise& noise) {
+    if (!(noise.along_normals > 0 || noise.axis)) return;
+    std::vector<double> deviation(normal.size());
+    for (std::size_t v = 0; v < deviation.size(); ++v) deviation[v] = noise.along(normal[v]);
+    noise.by_edges = share_of_noise_by_edges(faces, positions, near, deviation);
+    const double factor = std::sqrt(noise.by_edges);
+    noise.along_normals *= factor;
+    noise.at_least *= noise.by_edges * factor;
+    if (noise.axis) noise.axis->deviation *= factor, noise.axis->across *= factor;
+}
+
 /// Detail of the places: like AlongNormals::detail with equal weights, for vectors.
 Positions detail_of(const Neighbours& near, const Positions& p) {
     Positions out(p.size());
@@ -256,6 +271,7 @@ SurfaceNoise surface_noise(const Faces& faces, const Positions& positions, const
     noise.white = std::max(0.0, found.white - error_of_white_share(near.rows()));
     add_axis(found, normal, noise);
     find_within_surface(positions, near, normal, noise);
+    if (near.rows() <= coarse_up_to) leave_shape(faces, positions, near, normal, noise);
     return noise;
 }
 

@@ -12,6 +12,9 @@ struct SurfaceNoise {
     double at_least = 0;
     /// Share of the square that is white noise if the rest is a rough surface: see white_share(). Creases make it less.
     double white = 1;
+    /// Share of the square of what looks like it that is noise by how the edges suit it, see edge_fit.h: the rest is
+    /// shape, and left out above.
+    double by_edges = 1;
     /// Of the vertices' places within the surface in each of two directions, mesh units: an upper bound of the noise
     /// there, for an irregular sampling looks the same.
     double within_surface = 0;

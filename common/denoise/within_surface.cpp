@@ -40,13 +40,30 @@ bool is_bad(const Face& f, const Positions& p, const Array<Vec3>& normal, const 
            size < bad.thin * (ab.squaredNorm() + ac.squaredNorm() + bc.squaredNorm());
 }
 
-double folded_share(const Faces& faces, const Positions& p, const Array<Vec3>& normal) {
-    const Index folded = chunked_reduce<Index>(faces.size(), [&](std::size_t begin, std::size_t end) {
-        Index part = 0;
-        for (std::size_t f = begin; f < end; ++f) part += is_bad(faces[f], p, normal, {0.5, 0});
+/// Where the smoothed surface bends within a face coarse shapes are folded by nature.
+bool is_flat(const Face& f, const Array<Vec3>& normal) {
+    constexpr double agreement = 0.95;
+    return (normal[f[0]] + normal[f[1]] + normal[f[2]]).norm() > 3 * agreement;
+}
+
+/// Numbers of faces.
+struct Folded {
+    double all = 0;
+    double flat = 0;  ///< of those where the surface is flat
+    Folded& operator+=(const Folded& o) {
+        all += o.all;
+        flat += o.flat;
+        return *this;
+    }
+};
+
+Folded folded_faces(const Faces& faces, const Positions& p, const Array<Vec3>& normal) {
+    return chunked_reduce<Folded>(faces.size(), [&](std::size_t begin, std::size_t end) {
+        Folded part;
+        for (std::size_t f = begin; f < end; ++f)
+            if (is_bad(faces[f], p, normal, {0.5, 0})) part += {1.0, is_flat(faces[f], normal) ? 1.0 : 0.0};
         return part;
     });
-    return faces.empty() ? 0 : static_cast<double>(folded) / static_cast<double>(faces.size());
 }
 
 /// Vertices of bad faces move half way to the middle of their neighbours, within the surface, until no face is bad or
@@ -122,16 +139,21 @@ Positions noise_within(const Positions& p, const Neighbours& near, const Array<V
 
 /// Decides by what the vertices' places and the folded faces say. Noise folds about as many faces of this mesh as it
 /// does once the sampling was made even, and more if the sampling is uneven; faces that are folded by nature spoil this
-/// where it is weak, so the evidence must be stronger where the sampling alone would explain the places.
+/// where it is weak, so the evidence must be stronger where the sampling alone would explain the places: it must be
+/// there without the faces within which the surface bends, too, and not by chance.
 void judge(const Faces& faces, const Positions& p, const Positions& more, const Positions& to_even,
            const Array<Vec3>& normal, const SurfaceNoise& noise, WithinSurface& out) {
+    constexpr double least_share = 0.001, most_share = 0.85, errors = 2;
     Positions even = p;
     for (std::size_t i = 0; i < p.size(); ++i) even[i] += to_even[i] + more[i];
-    const double folded = folded_share(faces, p, normal), expected = folded_share(faces, even, normal);
+    const Folded folded = folded_faces(faces, p, normal), expected = folded_faces(faces, even, normal);
     const double irregular = std::clamp((noise.within_surface / noise.along_normals - 1.15) / 0.15, 0.0, 1.0);
-    out.noisy = folded > 0.001 && folded > (0.6 + 0.6 * irregular) * expected;
-    out.perhaps = !out.noisy && folded >= 0.3 * expected;
-    out.likely = out.perhaps && noise.likely_all && folded >= 0.6 * expected;
+    const double flat = most_share * expected.flat + errors * std::sqrt(expected.flat);
+    out.noisy = folded.all > least_share * static_cast<double>(faces.size()) &&
+                folded.all > (0.6 + 0.6 * irregular) * expected.all &&
+                (!(irregular > 0) || folded.flat > irregular * flat);
+    out.perhaps = !out.noisy && folded.all >= 0.3 * expected.all;
+    out.likely = out.perhaps && noise.likely_all && folded.all >= 0.6 * expected.all;
 }
 
 void add_blend(const std::vector<Positions>& shift, WithinSurface& out) {

@@ -20,9 +20,10 @@ struct WithinSurface {
 
 /// Whether there is noise within the surface cannot be seen where the sampling is irregular: it is believed if the
 /// places of the vertices are irregular enough, and more noise of the same size would not fold many times as many
-/// faces as are folded. Noise too weak to fold faces is likely if the places are just as irregular as it makes them. It
-/// is then removed by Taubin's low passes within the surface, blended with least estimated risk (as along the normals,
-/// see risk.h).
+/// faces as are folded; where the sampling alone would explain the places, faces within which the surface bends do not
+/// count, since coarse shapes are folded there by nature. Noise too weak to fold faces is likely if the places are just
+/// as irregular as it makes them. It is then removed by Taubin's low passes within the surface, blended with least
+/// estimated risk (as along the normals, see risk.h).
 /// @param edge      mean edge length
 /// @param as_there  what was found on a sample of this mesh, and is done to all of it; null: it is found here
 WithinSurface relax_within_surface(const Faces& faces, const Positions& positions, const Neighbours& near,

@@ -46,6 +46,12 @@ std::string text(const char* format, Numbers... numbers) {
 }
 
 void tell(const AutomaticStats& stats, const Shares& shares, Report& report) {
+    constexpr double nearly_all = 0.95;
+    if (stats.by_edges < nearly_all)
+        report.say(
+            text("The edges follow the details, as those of a coarse mesh do and noise does not: %.0f %% of what "
+                 "looks like noise is taken for shape.",
+                 100 * (1 - stats.by_edges)));
     if (stats.spikes > 0)
         report.say(text("%d vertices were impulses and were set back.", static_cast<int>(stats.spikes)));
     if (stats.weights.size() == 0) {
