@@ -420,6 +420,7 @@ Measured measured(const Faces& faces, const Positions& positions, const Incidenc
     if (m.varies) {
         m.start = positions;
         set_varying(std::move(varying), m);
+        if (m.along_normals > 0) find_varying_within_surface(faces, positions, near, m.deviation, m.noise);
         return m;
     }
     tick(0.07, "Looking for impulsive noise");

@@ -227,11 +227,15 @@ Energies energies_within(const Positions& detail, const Positions& noise, const 
 /// normals, from the quietest tenth to the middle of the surface, they are likely to be noise: a sampling that is
 /// irregular by nature is mostly so by another amount, and not by the same everywhere. Where they have more, the rest
 /// is the sampling's: a rest that varies more over the surface than samplings do says that there is no such noise.
-void find_within_surface(const Positions& p, const Neighbours& near, const Array<Vec3>& normal, SurfaceNoise& found) {
+/// @param relative  of the noise at each vertex, by along_normals; empty: 1
+void find_within_surface(const Positions& p, const Neighbours& near, const Array<Vec3>& normal,
+                         const std::vector<double>& relative, SurfaceNoise& found) {
     constexpr double least = 0.93, most = 1.15, even = 1.09;
     constexpr double variation = 3, by_chance = 0.12;  // of the rests' squares
     Positions noise(p.size());
-    parallel_for(near.rows(), [&](Index v) { noise[v] = Vec3(gaussian(v, 3), gaussian(v, 4), 0); });
+    parallel_for(near.rows(), [&](Index v) {
+        noise[v] = (relative.empty() ? 1 : relative[v]) * Vec3(gaussian(v, 3), gaussian(v, 4), 0);
+    });
     Positions detail = p;
     for (int order = 0; order < 3; ++order) {
         detail = detail_of(near, detail);
@@ -270,9 +274,16 @@ SurfaceNoise surface_noise(const Faces& faces, const Positions& positions, const
     const Array<Vec3> normal = smoothed(faces, positions, near, 3).normal;
     noise.white = std::max(0.0, found.white - error_of_white_share(near.rows()));
     add_axis(found, normal, noise);
-    find_within_surface(positions, near, normal, noise);
+    find_within_surface(positions, near, normal, {}, noise);
     if (near.rows() <= coarse_up_to) leave_shape(faces, positions, near, normal, noise);
     return noise;
+}
+
+void find_varying_within_surface(const Faces& faces, const Positions& positions, const Neighbours& near,
+                                 const std::vector<double>& deviation, SurfaceNoise& noise) {
+    std::vector<double> relative = deviation;
+    for (double& d : relative) d /= noise.along_normals;
+    find_within_surface(positions, near, smoothed(faces, positions, near, 3).normal, relative, noise);
 }
 
 std::optional<SurfaceNoise> rounding_noise(const Faces& faces, const Positions& positions, const Incidence& at,

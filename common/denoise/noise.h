@@ -42,6 +42,12 @@ struct SurfaceNoise {
 SurfaceNoise surface_noise(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
                            double edge);
 
+/// The same of noise that varies: sets what the vertices' places within the surface say.
+/// @param deviation  #V: along the normals, mesh units
+/// @param noise      its `along_normals` is their root mean square, > 0
+void find_varying_within_surface(const Faces& faces, const Positions& positions, const Neighbours& near,
+                                 const std::vector<double>& deviation, SurfaceNoise& noise);
+
 /// Of rounding coordinates to a lattice of this step: uniform errors. Nothing unless third differences have a fair
 /// share of what those make: a shape may have been designed on a lattice, and rounding leaves planes along the axes
 /// even.

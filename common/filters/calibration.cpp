@@ -13,7 +13,7 @@ namespace {
 /// The ends of the feature edges.
 std::vector<std::uint8_t> held_vertices(const Layer& layer, const FeatureOptions& features) {
     if (features.from == Features::none) return {};
-    Rings rings = vertex_rings(layer.mesh);
+    Rings rings = surface_rings(layer.mesh);
     mark_features(rings, layer, features.from, features.angle);
     std::vector<std::uint8_t> held(layer.mesh.positions.size(), 0);
     bool any = false;

@@ -123,6 +123,47 @@ private:
     std::vector<RingEdge> out_;
 };
 
+/// Moves wedges with the ends of one before them to the end; gives how many there are without them.
+Index without_duplicates(RingEdge* w, Index count) {
+    const auto ends = [](const RingEdge& e) { return std::minmax(e.from, e.to); };
+    std::sort(w, w + count, [&](const RingEdge& a, const RingEdge& b) { return ends(a) < ends(b); });
+    return static_cast<Index>(
+        std::unique(w, w + count, [&](const RingEdge& a, const RingEdge& b) { return ends(a) == ends(b); }) - w);
+}
+
+/// @param surface  duplicate faces do not count
+Rings rings_of(const Mesh& mesh, bool surface) {
+    Buckets<RingEdge> wedges = wedges_by_vertex(mesh);
+    const Index n = static_cast<Index>(mesh.positions.size());
+    Rings rings;
+    rings.kind.resize(n);
+    rings.offset.assign(n + 1, 0);
+    parallel_chunks(n, 1024, [&](Index begin, Index end) {
+        Chainer chainer;
+        for (Index i = begin; i < end; ++i) {
+            RingEdge* const w = wedges[i].begin();
+            Index count = wedges[i].size();
+            RingKind& kind = rings.kind[i];
+            kind = chainer.chain(w, count);
+            if (surface && kind == RingKind::irregular) {
+                count = without_duplicates(w, count);
+                if (count < wedges[i].size()) kind = chainer.chain(w, count);
+            }
+            const bool has_ring = kind == RingKind::closed || kind == RingKind::open;
+            rings.offset[i + 1] = has_ring ? count + (kind == RingKind::open) : 0;
+        }
+    });
+    for (Index i = 0; i < n; ++i) rings.offset[i + 1] += rings.offset[i];
+    rings.neighbor.resize(rings.offset[n]);
+    parallel_for(n, [&](Index i) {
+        const auto w = wedges[i];
+        Index* out = rings.neighbor.data() + rings.offset[i];
+        const Index d = rings.size(i), wedge_count = rings.kind[i] == RingKind::open ? d - 1 : d;
+        for (Index j = 0; j < d; ++j) out[j] = j < wedge_count ? w[j].from : w[j - 1].to;
+    });
+    return rings;
+}
+
 /// Where the neighbour stands in a row, -1 if not.
 Index find_in(const Rings& rings, Index row, Index neighbor) {
     const Index* r = rings.begin(row);
@@ -153,29 +194,9 @@ Index flap_of(const Rings& rings, Index i, Index j) {
 
 }  // namespace
 
-Rings vertex_rings(const Mesh& mesh) {
-    Buckets<RingEdge> wedges = wedges_by_vertex(mesh);
-    const Index n = static_cast<Index>(mesh.positions.size());
-    Rings rings;
-    rings.kind.resize(n);
-    rings.offset.resize(n + 1);
-    parallel_chunks(n, 1024, [&](Index begin, Index end) {
-        Chainer chainer;
-        for (Index i = begin; i < end; ++i) rings.kind[i] = chainer.chain(wedges[i].begin(), wedges[i].size());
-    });
-    for (Index i = 0; i < n; ++i) {
-        const bool has_ring = rings.kind[i] == RingKind::closed || rings.kind[i] == RingKind::open;
-        rings.offset[i + 1] = rings.offset[i] + (has_ring ? wedges[i].size() + (rings.kind[i] == RingKind::open) : 0);
-    }
-    rings.neighbor.resize(rings.offset[n]);
-    parallel_for(n, [&](Index i) {
-        const auto w = wedges[i];
-        Index* out = rings.neighbor.data() + rings.offset[i];
-        const Index d = rings.size(i);
-        for (Index j = 0; j < d; ++j) out[j] = j < w.size() ? w[j].from : w[j - 1].to;
-    });
-    return rings;
-}
+Rings vertex_rings(const Mesh& mesh) { return rings_of(mesh, false); }
+
+Rings surface_rings(const Mesh& mesh) { return rings_of(mesh, true); }
 
 Index next_on_boundary(const Rings& rings, Index from, Index at) {
     const Index d = rings.size(at), none = at;

@@ -19,6 +19,10 @@ namespace multires {
 /// Cost: linear in the mesh, O(d log d) for a vertex of valence d.
 Rings vertex_rings(const Mesh& mesh);
 
+/// The same, where a face with the three vertices of another one, in any order, does not count: the rings of the
+/// surface, which duplicate faces and the backs of double-sided ones add nothing to.
+Rings surface_rings(const Mesh& mesh);
+
 /// The neighbour along the boundary of a boundary vertex that comes after `from`; `at` itself if the boundary cannot be
 /// followed there, or if a feature edge meets it.
 /// @param rings  row i = vertex i

@@ -80,8 +80,9 @@ struct RelaxationOptions {
     /// triangle has 0.29, one with a base of 1 and a height of h << 1 about h / 2.
     double degenerate = 1e-10;
     /// No unit, at least 1: the largest sum of the absolute weights of a row. Nonnegative rows have 1; on scans nearly
-    /// all rows of any operator stay below 10, on the slivers of machined parts they reach a million.
-    double largest_norm = 100;
+    /// all rows of any operator stay below 6. On the slivers of machined parts, and of cracks whose sides nearly touch,
+    /// they reach a million, and levels multiply: with 100 a low pass moved vertices of cracked scans by 400 edges.
+    double largest_norm = 6;
     /// Closes the stars of boundary vertices across holes, see above.
     bool close_holes = true;
     /// Degrees, for cotangent_clamped: angles nearer than this to 0 or 180 are taken as this far from them.

@@ -30,7 +30,7 @@ Hierarchy hierarchy_of(const Layer& layer, const PyramidOptions& options, const 
         return row.own_hierarchy(layer.mesh, hierarchy_options(options));
     }
     progress.report(0, "Finding the neighbours");
-    Rings rings = vertex_rings(layer.mesh);
+    Rings rings = surface_rings(layer.mesh);
     mark_features(rings, layer, options.features.from, options.features.angle);
     const Progress building = progress.part(0.05, 0.6);
     return build_hierarchy(std::move(rings), layer.mesh.positions, hierarchy_options(options),

@@ -255,4 +255,35 @@ TEST(Adjacency, RenumberedMeshesHaveRenumberedRings) {
     }
 }
 
+TEST(SurfaceRings, TakeDuplicateFacesForOne) {
+    const Mesh sphere = shapes::irregular_sphere(300);
+    Mesh doubled = sphere;
+    for (std::size_t f = 0; f < sphere.faces.size(); ++f) {
+        const Face& face = sphere.faces[f];
+        if (f % 5 == 0) doubled.faces.push_back(face);
+        if (f % 3 == 0) doubled.faces.push_back({face[1], face[0], face[2]});
+    }
+    const auto count = [](const Rings& rings, RingKind kind) {
+        return std::count(rings.kind.begin(), rings.kind.end(), kind);
+    };
+    EXPECT_GT(count(vertex_rings(doubled), RingKind::irregular), 200);
+    const Rings expected = vertex_rings(sphere), found = surface_rings(doubled);
+    EXPECT_EQ(found.kind, expected.kind);
+    ASSERT_EQ(found.offset, expected.offset);
+    for (Index v = 0; v < found.rows(); ++v)  // the same cycles, from wherever they start, in either direction
+        for (Index j = 0; j < found.size(v); ++j) {
+            const auto next = [&](const Rings& r, Index of, int way) {
+                const Index* const begin = r.begin(v);
+                const Index at = static_cast<Index>(std::find(begin, begin + r.size(v), of) - begin);
+                return begin[(at + way + r.size(v)) % r.size(v)];
+            };
+            const Index u = found.begin(v)[j], after = next(found, u, 1);
+            EXPECT_TRUE(after == next(expected, u, 1) || after == next(expected, u, -1));
+        }
+    const Rings same = surface_rings(sphere);
+    EXPECT_EQ(same.neighbor, expected.neighbor);
+    EXPECT_EQ(count(surface_rings(shapes::double_sided_triangle()), RingKind::open), 3);
+    EXPECT_EQ(count(surface_rings(shapes::three_faces_on_an_edge()), RingKind::irregular), 2);
+}
+
 }  // namespace multires

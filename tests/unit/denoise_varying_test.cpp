@@ -12,14 +12,15 @@ using namespace fixtures;
 
 namespace {
 
-/// A mesh with noise along the normals, of another deviation at each vertex.
+/// A mesh with noise of another deviation at each vertex.
 struct Varying {
     Mesh mesh;
     std::vector<double> deviation;  ///< #V, mesh units
 
     /// @param least, most  at the two ends, edge lengths
     /// @param at_once      it changes in the middle, otherwise by and by
-    Varying(const Mesh& truth, double least, double most, bool at_once) : mesh(truth) {
+    Varying(const Mesh& truth, double least, double most, bool at_once, NoiseKind kind = NoiseKind::along_normals)
+        : mesh(truth) {
         const double edge = mean_edge_length(truth.faces, truth.positions);
         const Array<Vec3> normal = multires::vertex_normals(truth.faces, truth.positions);
         double low = truth.positions[0].x(), high = low;
@@ -28,7 +29,10 @@ struct Varying {
             const double along = (truth.positions[i].x() - low) / (high - low);
             const double share = at_once ? (along < 0.5 ? 0 : 1) : along;
             deviation.push_back(edge * (least + (most - least) * share));
-            mesh.positions[i] += deviation.back() * gaussian(static_cast<Index>(i), 44) * normal[i];
+            const auto random = [&](std::uint64_t seed) { return gaussian(static_cast<Index>(i), seed); };
+            mesh.positions[i] +=
+                deviation.back() * (kind == NoiseKind::along_normals ? Vec3(random(44) * normal[i])
+                                                                     : Vec3(random(44), random(45), random(46)));
         }
     }
 };
@@ -47,6 +51,19 @@ TEST(VaryingNoise, IsFollowedByDenoise) {
             EXPECT_LT(reported<double>(result, "noise_least"), 0.1 * edge);
             EXPECT_GT(reported<double>(result, "noise_most"), 0.22 * edge);
         }
+}
+
+TEST(VaryingNoise, IsFollowedWithinTheSurfaceToo) {
+    for (const Mesh& truth : {shapes::irregular_sphere(10000), shapes::torus(120, 60)}) {
+        Layer layer;
+        layer.mesh = Varying(truth, 0.1, 0.4, false, NoiseKind::all_directions).mesh;
+        Session session;
+        const Result result = denoise(layer, {}, session);
+        EXPECT_TRUE(reported<bool>(result, "noise_in_all_directions"));
+        const Error before = error_of(truth, layer.mesh.positions), after = error_of(truth, *result.positions);
+        EXPECT_LT(after.angle, 0.35 * before.angle);
+        EXPECT_LT(after.rms, 0.9 * before.rms);
+    }
 }
 
 TEST(VaryingNoise, IsKnownAtEachVertexAndNotSeenWhereItIsTheSame) {

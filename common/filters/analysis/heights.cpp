@@ -119,7 +119,7 @@ Heights heights_over_low_pass(const Spline& spline, const Mesh& mesh, const Text
 }
 
 std::vector<double> distance_from_rim(const Mesh& mesh, double most) {
-    const Rings rings = vertex_rings(mesh);
+    const Rings rings = surface_rings(mesh);
     std::vector<double> distance(mesh.positions.size(), std::numeric_limits<double>::infinity());
     using Entry = std::pair<double, Index>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> next;

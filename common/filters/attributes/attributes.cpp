@@ -39,7 +39,7 @@ Relaxation make_relaxation(const Layer& layer, const AttributeRelaxationOptions&
                            const std::vector<double>& weights) {
     Relaxation r;
     const Positions& p = layer.mesh.positions;
-    r.rings = vertex_rings(layer.mesh);
+    r.rings = surface_rings(layer.mesh);
     mark_features(r.rings, layer, options.features, options.feature_angle);
     if (uses_flaps(options.op)) find_flaps(r.rings);
     RelaxationOptions relaxation_options;

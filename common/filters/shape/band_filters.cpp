@@ -172,7 +172,7 @@ Result unsharp(const Layer& layer, const UnsharpOptions& options, Session& sessi
     require(options.iterations >= 1, "iterations must be at least 1");
     const std::vector<double> weights = region_weights(layer, options.region);
     session.progress.report(0, "Computing weights");
-    Rings rings = vertex_rings(mesh);
+    Rings rings = surface_rings(mesh);
     mark_features(rings, start.layer(), options.features, options.feature_angle);
     if (uses_flaps(options.op)) find_flaps(rings);
     RelaxationOptions relaxation_options;
