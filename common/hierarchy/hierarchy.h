@@ -31,7 +31,8 @@ enum class Split {
 struct HierarchyOptions {
     Grouping grouping = Grouping::independent_sets;
     int sets_per_level = 1;  ///< >= 1; each set removes 22 to 25 % of the vertices
-    double set_share = 1;  ///< independent sets: each takes only from this cheapest share of its candidates, in (0, 1]
+    double set_share = 1;   ///< independent sets: each takes only from this cheapest share of its candidates, in (0, 1]
+    int valence_power = 0;  ///< independent sets: costs times (valence / 6) to this power, >= 0; 3 keeps hubs for later
     bool memoryless = false;     ///< independent sets: costs from the faces as they are, not summed since the input
                                  ///< (Lindstrom and Turk 1998): less error for the same number of vertices
     double boundary_weight = 1;  ///< independent sets, > 0: of the planes that stand on the boundary

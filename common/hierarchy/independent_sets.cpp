@@ -122,6 +122,7 @@ Candidates rank_vertices(const State& s, const HierarchyOptions& options) {
         if (!(least < std::numeric_limits<double>::infinity())) return;
         if (options.split == Split::regression_plane)
             least = collapse::distance_from_ring(v, ring, directions, s.positions);
+        for (int i = 0; i < options.valence_power; ++i) least *= ring.size / 6.0;
         c.key[v] = radix_key(static_cast<float>(least * collapse::jitter(v, options.seed)));
     });
     return c;

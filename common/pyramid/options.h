@@ -75,8 +75,8 @@ std::vector<std::string> scheme_names();
 template <class Visit>
 void visit_options(PyramidOptions& o, const Visit& visit) {  // NOLINT(readability-function-size): a table
     auto& [row, op, presmooth, storage, update] = o.scheme;
-    auto& [grouping, sets, set_share, memoryless, boundary_weight, level_ratio, base_vertices, normal_limit,
-           length_weight, split, seed, flaps, even_rings, mean_edges] = o.hierarchy;
+    auto& [grouping, sets, set_share, valence_power, memoryless, boundary_weight, level_ratio, base_vertices,
+           normal_limit, length_weight, split, seed, flaps, even_rings, mean_edges] = o.hierarchy;
     auto& [features, feature_angle] = o.features;
     using Option = PyramidOption;
     const std::vector<std::string> names = scheme_names();
@@ -172,6 +172,7 @@ void visit_options(PyramidOptions& o, const Visit& visit) {  // NOLINT(readabili
     // Not for people: other hierarchies for averaging, and what adaptive reconstruction does differently.
     visit(Option{"seed", "", "", -2147483648.0, 2147483647.0}, seed);
     visit(Option{"set_share"}, set_share);
+    visit(Option{"valence_power", "", "", 0, 16}, valence_power);
     visit(Option{"memoryless"}, memoryless);
     visit(Option{"boundary_weight", "", "", 0, 1e30}, boundary_weight);
     visit(Option{"flaps"}, flaps);

@@ -82,6 +82,25 @@ HierarchyOptions coarse_sets(double base) {
     return o;
 }
 
+/// Machined parts: what lies within a plane costs next to nothing to take away or to put back, so the fewer sets the
+/// better, and what counts is that the corners' fans do not grow.
+HierarchyOptions for_planes(HierarchyOptions o) {
+    const bool coarse = o.set_share < 1;
+    o.length_weight = coarse ? 0.001 : 0.005;
+    if (coarse) o.set_share = 0.7, o.valence_power = 3;
+    return o;
+}
+
+/// True if most edges do not bend: those of planes, in cells.
+bool mostly_planes(const Mesh& mesh) {
+    constexpr double least = 0.65, degrees = 1;
+    Rings rings = vertex_rings(mesh);
+    mark_features_by_angle(rings, mesh.positions, degrees);
+    const auto all = static_cast<double>(rings.feature.size());
+    const auto bent = static_cast<double>(std::count(rings.feature.begin(), rings.feature.end(), 1));
+    return all > 0 && all - bent >= least * all;
+}
+
 /// Leaves in the base what only went one by one: visiting all others for each takes its time.
 void cut(Hierarchy& h) {
     while (!h.levels.empty() && h.levels.back().fine - h.levels.back().coarse < least_batch * h.levels.back().coarse) {
@@ -113,6 +132,7 @@ Plan::Plan(const Faces& faces, const std::vector<Cell>& cells, std::vector<std::
     Mesh mesh{Positions(cells.size()), faces};
     for (std::size_t i = 0; i < cells.size(); ++i) mesh.positions[i] = Vec3(cells[i][0], cells[i][1], cells[i][2]);
     if (std::find(first_.begin(), first_.end(), 1) == first_.end()) first_.clear();
+    planes_ = mostly_planes(mesh);
     join(stages(mesh, tick));
     estimate_errors();
     place_.resize(base_);
@@ -125,7 +145,7 @@ Plan::Plan(const Faces& faces, const std::vector<Cell>& cells, std::vector<std::
 std::vector<Hierarchy> Plan::stages(const Mesh& mesh, const Tick& tick) const {
     std::vector<Hierarchy> out;
     const auto add = [&](Rings rings, const Positions& positions, const HierarchyOptions& options) {
-        out.push_back(build_hierarchy(std::move(rings), positions, options, tick));
+        out.push_back(build_hierarchy(std::move(rings), positions, planes_ ? for_planes(options) : options, tick));
         const Hierarchy& h = out.back();
         return Positions(h.positions.begin(), h.positions.begin() + h.size.back());
     };

@@ -33,6 +33,9 @@ public:
     /// The same for what the cells' precision should follow: only the region's vertices, while it is not whole.
     double error_of_first(std::size_t batch) const { return first_.empty() ? error_[batch] : error_of_first_[batch]; }
 
+    /// Most of the input lies in planes, as machined parts do.
+    bool planes() const { return planes_; }
+
     /// How many batches it takes until the region is whole; all without one.
     std::size_t batches_of_first() const { return batches_of_first_; }
 
@@ -63,6 +66,7 @@ private:
     std::vector<Batch> batches_;   ///< in order of the stream
     std::vector<double> error_, error_of_first_;
     std::vector<std::uint8_t> first_;
+    bool planes_ = false;
     std::size_t batches_of_first_ = 0;
     std::vector<Index> place_, vertex_;  ///< of vertices of the stream; and back, -1: not yet there
     const Batch* batch_ = nullptr;

@@ -189,6 +189,21 @@ TEST(Hierarchy, SequentialGroupingsCutOneSequence) {
     EXPECT_EQ(ratio.size.back(), options.base_vertices);
 }
 
+TEST(Hierarchy, ValencePowerKeepsHubs) {
+    const Mesh mesh = shapes::irregular_sphere(3000);
+    const auto mean_valence = [&](int power) {  // of the vertices the first level takes
+        HierarchyOptions options;
+        options.set_share = 0.5;
+        options.valence_power = power;
+        const Hierarchy h = hierarchy_of(mesh, options);
+        const RowRange rows = h.levels[0].odd;
+        double sum = 0;
+        for (Index r = rows.begin; r < rows.end; ++r) sum += h.odd.size(r);
+        return sum / rows.size();
+    };
+    EXPECT_LT(mean_valence(3), mean_valence(0) - 0.1);
+}
+
 TEST(Hierarchy, ASetRemovesAFifthToAThird) {
     for (const Mesh& mesh : {shapes::scan(5000), shapes::irregular_sphere(3000), shapes::plane(50),
                              shapes::terrain(50).mesh, shapes::block(20)}) {

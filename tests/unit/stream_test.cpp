@@ -4,6 +4,7 @@
 #include "stream/bit_model.h"
 #include "stream/decoder.h"
 #include "stream/encoder.h"
+#include "stream/plan.h"
 #include "stream/regression.h"
 #include "stream/two.h"
 
@@ -462,6 +463,23 @@ TEST(Stream, ExponentialAndLogarithmAreThoseOfTheLibrary) {
         EXPECT_NEAR(stream::exponential(x) / std::exp(x), 1, 1e-6);
         EXPECT_NEAR(stream::logarithm(std::exp(x)), x / std::log(2.0), 1e-6);
     }
+}
+
+TEST(Stream, KnowsMachinedParts) {
+    const auto planes = [](const Mesh& mesh) {
+        std::vector<stream::Cell> cells;
+        const Vec3 low = bounding_box(mesh.positions).min();
+        for (const Vec3& p : mesh.positions) {
+            const Vec3 c = (4095 / 4.0 * (p - low)).array().round();
+            cells.push_back(
+                {static_cast<std::int32_t>(c.x()), static_cast<std::int32_t>(c.y()), static_cast<std::int32_t>(c.z())});
+        }
+        return stream::Plan(mesh.faces, cells).planes();
+    };
+    EXPECT_TRUE(planes(shapes::block(12)));
+    EXPECT_TRUE(planes(shapes::plane(12)));
+    EXPECT_FALSE(planes(shapes::scan(1000)));
+    EXPECT_FALSE(planes(shapes::irregular_sphere(1000)));
 }
 
 }  // namespace
