@@ -207,7 +207,7 @@ InputCounts count_input(const Mesh& mesh, Index irregular) {
 }
 
 InputCounts count_input(const Mesh& mesh) {
-    const Rings rings = vertex_rings(mesh);
+    const Rings rings = surface_rings(mesh);
     return count_input(mesh, static_cast<Index>(std::count(rings.kind.begin(), rings.kind.end(), RingKind::irregular)));
 }
 

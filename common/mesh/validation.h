@@ -32,7 +32,7 @@ std::vector<std::uint8_t> vertices_in_faces(const Mesh& mesh);
 
 /// Counts what is unusual.
 /// @param mesh       face indices in range
-/// @param irregular  how many of its vertex_rings() are RingKind::irregular, if that is known
+/// @param irregular  how many of its surface_rings() are RingKind::irregular, if that is known
 /// Cost: linear in the mesh for bounded valences.
 InputCounts count_input(const Mesh& mesh, Index irregular);
 InputCounts count_input(const Mesh& mesh);

@@ -468,11 +468,9 @@ TEST(Stream, ExponentialAndLogarithmAreThoseOfTheLibrary) {
 TEST(Stream, KnowsMachinedParts) {
     const auto planes = [](const Mesh& mesh) {
         std::vector<stream::Cell> cells;
-        const Vec3 low = bounding_box(mesh.positions).min();
         for (const Vec3& p : mesh.positions) {
-            const Vec3 c = (4095 / 4.0 * (p - low)).array().round();
-            cells.push_back(
-                {static_cast<std::int32_t>(c.x()), static_cast<std::int32_t>(c.y()), static_cast<std::int32_t>(c.z())});
+            const auto cell = [](double x) { return static_cast<std::int32_t>(std::lround(1000 * x)); };
+            cells.push_back({cell(p.x()), cell(p.y()), cell(p.z())});
         }
         return stream::Plan(mesh.faces, cells).planes();
     };
