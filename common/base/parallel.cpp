@@ -6,8 +6,11 @@
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
+#include <memory>
 #include <mutex>
+#include <new>
 #include <thread>
+#include <utility>
 
 namespace multires {
 namespace {
@@ -81,9 +84,9 @@ public:
 
     void run(Job& job, int threads) {
         {
-            const std::lock_guard<std::mutex> lock(mutex_);
-            if (job_) threads = 1;  // another loop has the helpers
-            start(threads - 1);
+            std::unique_lock<std::mutex> lock(mutex_);
+            if (!job_) start(threads - 1, lock);  // which may let others in meanwhile
+            if (job_) threads = 1;                // another loop has the helpers
             if (threads > 1) {
                 job_ = &job;
                 helpers_wanted_ = threads - 1;
@@ -101,21 +104,34 @@ public:
     }
 
 private:
-    void start(int helpers) {
+    /// What the C++ library allocates for exceptions at a thread's first access, with room for what malloc needs to.
+    using Reserve = std::unique_ptr<char[]>;
+    static constexpr std::size_t reserve_bytes = 1 << 16;
+
+    /// Waits for each to be ready: while it allocates, nobody else does. glibc ends the process if that fails.
+    void start(int helpers, std::unique_lock<std::mutex>& lock) {
         while (started_ < helpers) {
+            Reserve reserve(new (std::nothrow) char[reserve_bytes]);
+            if (!reserve) return;
             try {
-                std::thread([this] { help(); }).detach();
+                std::thread([this, kept = std::move(reserve)]() mutable { help(std::move(kept)); }).detach();
             } catch (const std::system_error&) {
                 return;  // no more threads to be had; go on with those there are
             }
             ++started_;
+            done_.wait(lock, [&] { return ready_ == started_; });
         }
     }
 
-    void help() {
-        // The C++ library's variables for exceptions are allocated at a thread's first access, too: now, not when there
-        // is no memory left to report just that.
-        static_cast<void>(std::uncaught_exceptions());
+    void help(Reserve reserve) {
+        reserve.reset();
+        [[maybe_unused]] const volatile int asked =
+            std::uncaught_exceptions();  // allocates; volatile, or it is left out
+        {
+            const std::lock_guard<std::mutex> lock(mutex_);
+            ++ready_;
+        }
+        done_.notify_all();
         unsigned seen = 0;
         for (;;) {
             // Loops come in quick succession: look for the next one for a while before going to sleep.
@@ -139,7 +155,7 @@ private:
     std::condition_variable wake_, done_;
     std::atomic<unsigned> published_{0};
     Job* job_ = nullptr;
-    int helpers_wanted_ = 0, started_ = 0;
+    int helpers_wanted_ = 0, started_ = 0, ready_ = 0;
 };
 
 int default_threads() {
