@@ -43,9 +43,9 @@ std::vector<std::uint8_t> turn_alike(const Faces& faces, const Rings& rings) {
 }
 
 /// Rings of the vertices that may be split off again: the others are irregular here and stay.
-/// @param stay  #V: 1 for others that stay; empty: none
-Rings removable(const Mesh& mesh, const std::vector<std::uint8_t>& stay) {
-    Rings rings = vertex_rings(mesh);
+/// @param rings  of the mesh
+/// @param stay   #V: 1 for others that stay; empty: none
+Rings removable(const Mesh& mesh, const Rings& rings, const std::vector<std::uint8_t>& stay) {
     const std::vector<std::uint8_t> alike = turn_alike(mesh.faces, rings);
     Rings out;
     out.kind = rings.kind;
@@ -92,13 +92,28 @@ HierarchyOptions for_planes(HierarchyOptions o) {
 }
 
 /// True if most edges do not bend: those of planes, in cells.
-bool mostly_planes(const Mesh& mesh) {
-    constexpr double least = 0.65, degrees = 1;
-    Rings rings = vertex_rings(mesh);
-    mark_features_by_angle(rings, mesh.positions, degrees);
-    const auto all = static_cast<double>(rings.feature.size());
-    const auto bent = static_cast<double>(std::count(rings.feature.begin(), rings.feature.end(), 1));
-    return all > 0 && all - bent >= least * all;
+bool mostly_planes(const Rings& rings, const Positions& p) {
+    constexpr double least = 0.65, square_of_cosine = 0.9997;  // of one degree
+    std::size_t edges = 0, flat = 0;                           // each edge from its first vertex
+    for (Index v = 0; v < rings.rows(); ++v) {
+        const Index size = rings.size(v), inner = rings.kind[v] == RingKind::closed ? size : size - 1;
+        const Index* const ring = rings.begin(v);
+        if (size < 3) continue;
+        const auto normal = [&](Index j) {
+            return Vec3((p[ring[j]] - p[v]).cross(p[ring[j + 1 < size ? j + 1 : 0]] - p[v]));
+        };
+        Vec3 before = normal(inner == size ? size - 1 : 0);
+        for (Index j = inner == size ? 0 : 1; j < inner; ++j) {
+            const Vec3 after = normal(j);
+            if (v < ring[j]) {
+                const double cosine = before.dot(after);
+                ++edges;
+                flat += cosine > 0 && cosine * cosine >= square_of_cosine * before.squaredNorm() * after.squaredNorm();
+            }
+            before = after;
+        }
+    }
+    return edges > 0 && static_cast<double>(flat) >= least * static_cast<double>(edges);
 }
 
 /// Leaves in the base what only went one by one: visiting all others for each takes its time.
@@ -132,8 +147,9 @@ Plan::Plan(const Faces& faces, const std::vector<Cell>& cells, std::vector<std::
     Mesh mesh{Positions(cells.size()), faces};
     for (std::size_t i = 0; i < cells.size(); ++i) mesh.positions[i] = Vec3(cells[i][0], cells[i][1], cells[i][2]);
     if (std::find(first_.begin(), first_.end(), 1) == first_.end()) first_.clear();
-    planes_ = mostly_planes(mesh);
-    join(stages(mesh, tick));
+    const Rings rings = vertex_rings(mesh);
+    planes_ = mostly_planes(rings, mesh.positions);
+    join(stages(mesh, rings, tick));
     estimate_errors();
     place_.resize(base_);
     std::iota(place_.begin(), place_.end(), 0);
@@ -142,7 +158,7 @@ Plan::Plan(const Faces& faces, const std::vector<Cell>& cells, std::vector<std::
 }
 
 /// Hierarchies, each of the mesh that the one before has left, the finest first.
-std::vector<Hierarchy> Plan::stages(const Mesh& mesh, const Tick& tick) const {
+std::vector<Hierarchy> Plan::stages(const Mesh& mesh, const Rings& whole, const Tick& tick) const {
     std::vector<Hierarchy> out;
     const auto add = [&](Rings rings, const Positions& positions, const HierarchyOptions& options) {
         out.push_back(build_hierarchy(std::move(rings), positions, planes_ ? for_planes(options) : options, tick));
@@ -153,13 +169,15 @@ std::vector<Hierarchy> Plan::stages(const Mesh& mesh, const Tick& tick) const {
     if (!first_.empty()) {
         const auto kept = static_cast<double>(std::count(first_.begin(), first_.end(), 1));
         const double others = static_cast<double>(first_.size()) - kept;
-        const Positions some = add(removable(mesh, first_), mesh.positions, fine_sets(kept + fine_share * others));
+        const Positions some =
+            add(removable(mesh, whole, first_), mesh.positions, fine_sets(kept + fine_share * others));
         Rings rings = std::move(out[0].base);
         add(std::move(rings), some, coarse_sets(kept + outside_share * others));
         cut(out[1]);
         rest = left(left(mesh, out[0]), out[1]);
     }
-    const Positions some = add(removable(rest, {}), rest.positions, fine_sets(fine_share * rest.positions.size()));
+    const Positions some = add(removable(rest, first_.empty() ? whole : vertex_rings(rest), {}), rest.positions,
+                               fine_sets(fine_share * rest.positions.size()));
     Rings rings = std::move(out.back().base);
     add(std::move(rings), some, coarse_sets(4));
     return out;

@@ -52,7 +52,7 @@ private:
         std::size_t stage = 0;
         RowRange rows;  ///< of odd_[stage]
     };
-    std::vector<Hierarchy> stages(const Mesh& mesh, const Tick& tick) const;
+    std::vector<Hierarchy> stages(const Mesh& mesh, const Rings& rings, const Tick& tick) const;
     void join(std::vector<Hierarchy> stages);
     void estimate_errors();
     double squared_height(const Batch& batch, Index row) const;
