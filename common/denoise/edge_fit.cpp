@@ -1,11 +1,11 @@
 #include "denoise/edge_fit.h"
 
 #include "base/parallel.h"
+#include "measure/angle.h"
 #include "measure/vertex_normals.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace multires {
 namespace {
@@ -37,8 +37,6 @@ Vec3 normal_of(const Vec3& a, const Vec3& b, const Vec3& c) {
     const double length = n.norm();
     return length > 0 ? Vec3(n / length) : Vec3(Vec3::Zero());
 }
-
-double angle_between(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 
 }  // namespace
 

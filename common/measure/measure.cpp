@@ -3,6 +3,7 @@
 #include "base/angles.h"
 #include "base/parallel.h"
 #include "base/reduce.h"
+#include "measure/angle.h"
 
 #include <cmath>
 #include <limits>
@@ -142,7 +143,7 @@ double mean_normal_angle(const Faces& faces, const Positions& a, const Positions
     const auto angles = chunked_fold<Mean>(faces.size(), [&](Mean& part, std::size_t f) {
         const Triangle s(faces[f], a), t(faces[f], b);
         if (s.is_degenerate() || t.is_degenerate()) return;
-        part.add(std::atan2(s.cross.cross(t.cross).norm(), s.cross.dot(t.cross)));
+        part.add(angle_between(s.cross, t.cross));
     });
     return degrees(angles.value());
 }

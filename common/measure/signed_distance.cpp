@@ -1,5 +1,6 @@
 #include "measure/signed_distance.h"
 
+#include "measure/angle.h"
 #include "measure/measure.h"
 
 #include <algorithm>
@@ -27,8 +28,6 @@ std::vector<Index> places(const Positions& positions) {
     return place;
 }
 
-double angle(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
-
 }  // namespace
 
 SignedDistance::SignedDistance(const Faces& faces, const Positions& positions)
@@ -44,7 +43,7 @@ SignedDistance::SignedDistance(const Faces& faces, const Positions& positions)
             const Index v = place_[faces[f][k]];
             star_[next[v]++] = static_cast<Index>(f);
             const Vec3 &p = positions[v], &q = positions[faces[f][(k + 1) % 3]], &r = positions[faces[f][(k + 2) % 3]];
-            vertex_normal_[v] += angle(q - p, r - p) * face_normal_[f];
+            vertex_normal_[v] += angle_between(q - p, r - p) * face_normal_[f];
         }
 }
 

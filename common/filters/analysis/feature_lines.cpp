@@ -3,12 +3,12 @@
 #include "base/angles.h"
 #include "base/parallel.h"
 #include "filters/analysis/line_graph.h"
+#include "measure/angle.h"
 #include "mesh/validation.h"
 #include "normals/face_graph.h"
 #include "normals/normal_field.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace multires {
 namespace {
@@ -19,7 +19,7 @@ void check(const FeatureLineOptions& o) {
     require(o.shortest >= 0, "shortest must be 0 or more");
 }
 
-double degrees_between(const Vec3& a, const Vec3& b) { return degrees(std::atan2(a.cross(b).norm(), a.dot(b))); }
+double degrees_between(const Vec3& a, const Vec3& b) { return degrees(angle_between(a, b)); }
 
 /// The mean normal around a vertex of the faces that look about as `like` does.
 Vec3 around(Index vertex, const Vec3& like, const Incidence& at, const Array<Vec3>& normal, double turn) {
