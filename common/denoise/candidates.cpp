@@ -1,6 +1,7 @@
 #include "denoise/candidates.h"
 
 #include "base/parallel.h"
+#include "measure/vertex_normals.h"
 #include "normals/guided_normals.h"
 #include "normals/normal_field.h"
 
@@ -48,10 +49,11 @@ bool LocalWeights::any(std::size_t candidate) const {
 }
 
 CandidateMaker::CandidateMaker(const Faces& faces, const Positions& positions, const Incidence& at,
-                               const Neighbours& near, const Array<Vec3>& normal, const std::vector<double>& weight,
-                               const std::vector<double>& deviation)
-    : faces_(faces), positions_(positions), at_(at), near_(near), normal_(normal), weight_(weight),
-      deviation_(deviation), probe_(deviation.size()) {
+                               const Neighbours& near, int smoothing, const std::vector<double>& deviation)
+    : faces_(faces), positions_(positions), at_(at), near_(near), deviation_(deviation), probe_(deviation.size()) {
+    const Positions smooth = taubin(near, positions, smoothing);
+    normal_ = vertex_normals(faces, smooth);
+    weight_ = cotangent_weights(faces, at, near, smooth);
     parallel_for(near.rows(), [&](Index v) { probe_[v] = deviation[v] * gaussian(v, 7); });
 }
 

@@ -62,12 +62,13 @@ private:
 /// A surface that is to be denoised, with what its candidates share.
 class CandidateMaker {
 public:
+    /// @param smoothing  steps of Taubin's low pass on the surface whose normals are directions, and cotangents weights
     /// @param deviation  #V: of the noise along the normals, mesh units
-    /// @param normal     #V by 3: smoothed vertex normals
-    /// @param weight     #entries: cotangent_weights() of a smoothed surface
     CandidateMaker(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
-                   const Array<Vec3>& normal, const std::vector<double>& weight, const std::vector<double>& deviation);
+                   int smoothing, const std::vector<double>& deviation);
 
+    const Array<Vec3>& normal() const { return normal_; }
+    const std::vector<double>& weight() const { return weight_; }
     const std::vector<double>& probe() const { return probe_; }
 
     struct Responses {
@@ -116,9 +117,9 @@ private:
     const Positions& positions_;
     const Incidence& at_;
     const Neighbours& near_;
-    const Array<Vec3>& normal_;
-    const std::vector<double>& weight_;
     const std::vector<double>& deviation_;
+    Array<Vec3> normal_;          ///< #V by 3
+    std::vector<double> weight_;  ///< #entries
     std::vector<double> probe_;
     mutable std::optional<FaceGraph> graph_;
 };

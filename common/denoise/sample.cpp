@@ -31,6 +31,8 @@ Sample patches_of(const Faces& faces, const Positions& positions, const Neighbou
     std::size_t next = 0;
     for (const Face& f : faces)
         if (inside(f)) sample.faces[next++] = {place[f[0]], place[f[1]], place[f[2]]};
+    sample.at = vertex_faces(sample.faces, static_cast<Index>(members.size()));
+    sample.near = neighbours(sample.faces, sample.at);
     return sample;
 }
 

@@ -1,0 +1,201 @@
+#include "denoise/choice.h"
+
+#include "base/reduce.h"
+#include "denoise/sample.h"
+#include "denoise/white_share.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+constexpr Index patch_size = 1500;
+constexpr double mostly = 0.5;    ///< weight of the normal field that speaks for guided normals
+constexpr double sharply = 0.65;  ///< weight of what keeps creases from which on it is alone
+constexpr double small_weight = 0.04, small_weight_if_slow = 0.1;  ///< candidates with less are left out
+
+/// Weights so small that their candidates are not worth making go to the others.
+/// @param large  the mesh: normal fields take most of the time
+void drop_small(Eigen::VectorXd& t, bool large) {
+    const std::vector<Candidate> all = all_candidates();
+    const double before = t.sum();
+    for (Eigen::Index k = 0; k < t.size(); ++k) {
+        const bool slow = large && all[static_cast<std::size_t>(k)].family == Family::normal_field;
+        if (t[k] < (slow ? small_weight_if_slow : small_weight)) t[k] = 0;
+    }
+    if (t.sum() > 0) t *= before / t.sum();
+}
+
+/// The weights of least risk without some of the candidates.
+Eigen::VectorXd least_risk_of(const Risk& risk, const std::vector<std::uint8_t>& allowed) {
+    std::vector<Eigen::Index> kept;
+    for (std::size_t k = 0; k < allowed.size(); ++k)
+        if (allowed[k]) kept.push_back(static_cast<Eigen::Index>(k));
+    const Eigen::VectorXd t = least_risk({risk.constant, risk.linear(kept), risk.quadratic(kept, kept)});
+    Eigen::VectorXd out = Eigen::VectorXd::Zero(risk.linear.size());
+    for (std::size_t k = 0; k < kept.size(); ++k) out[kept[k]] = t[static_cast<Eigen::Index>(k)];
+    return out;
+}
+
+/// The candidates that keep creases: the normal field, and guided normals after it.
+std::vector<std::uint8_t> sharp_candidates(Eigen::Index count) {
+    const std::vector<Candidate> all = all_candidates();
+    std::vector<std::uint8_t> sharp(static_cast<std::size_t>(count));
+    for (std::size_t k = 0; k < sharp.size(); ++k)
+        sharp[k] = all[k].family == Family::normal_field || all[k].family == Family::guided_normals;
+    return sharp;
+}
+
+/// Least risk of the normals, as long as the distances gain, too: a third of the noise, or half of what they could.
+/// Where most speaks for what keeps creases, nothing that rounds them is mixed in: squares make much of few vertices.
+/// @param stairs  what keeps creases is no candidate
+/// @param large   see drop_small()
+Eigen::VectorXd weights_of(const Risks& r, bool stairs, bool large) {
+    const double half = (r.heights.constant + r.heights.at(least_risk(r.heights))) / 2;
+    const double limit = std::max(half, 0.7 * r.heights.constant);
+    Eigen::VectorXd t;
+    const std::vector<std::uint8_t> sharp = sharp_candidates(r.edges.linear.size()), all(sharp.size(), 1);
+    std::vector<std::uint8_t> smooth = all;
+    for (std::size_t k = 0; k < sharp.size(); ++k) smooth[k] = !sharp[k];
+    for (const double heights : {0.0, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0}) {
+        const double e = 1 / r.edges.constant, h = heights / r.heights.constant;
+        const Risk both = {e * r.edges.constant + h * r.heights.constant, e * r.edges.linear + h * r.heights.linear,
+                           e * r.edges.quadratic + h * r.heights.quadratic};
+        t = least_risk_of(both, stairs ? smooth : all);
+        if (sharp_share(t) > sharply) t = least_risk_of(both, sharp);
+        drop_small(t, large);
+        if (r.heights.at(t) <= limit) break;
+    }
+    return t;
+}
+
+/// The share of a blend that gains even if there is less noise than assumed: the cross term of the risk goes with the
+/// variance of the noise.
+/// @param certain  share of the variance that there is at least
+double safe_share(const Risk& risk, const Eigen::VectorXd& t, double certain) {
+    const double moved = t.dot(risk.quadratic * t), answer = -risk.linear.dot(t);
+    return moved > 0 ? std::clamp(2 * certain * answer / moved, 0.0, 1.0) : 0;
+}
+
+/// Mean square of what a blend leaves of the probe.
+double noise_left(const std::vector<Response>& responses, const std::vector<double>& probe, const Eigen::VectorXd& t,
+                  const std::vector<std::uint8_t>& core) {
+    const auto mean = chunked_fold<Mean>(core.size(), [&](Mean& part, std::size_t i) {
+        if (!core[i]) return;
+        double left = probe[i];
+        for (std::size_t k = 0; k < responses.size(); ++k)
+            left += t[static_cast<Eigen::Index>(k)] * responses[k][2 * i + 1];
+        part.add(left * left);
+    });
+    return mean.value();
+}
+
+/// What a choice is made from.
+struct Tried {
+    const AlongNormals& surface;
+    const Neighbours& near;
+    const std::vector<Response>& responses;
+    const std::vector<double>& probe;
+};
+
+/// For the vertices of a core.
+Choice choice_of(const Tried& tried, const Assumed& noise, const std::vector<std::uint8_t>& core) {
+    const Risks r = risks(tried.near, tried.responses, noise.deviation, tried.probe, core);
+    Choice choice;
+    choice.weights = weights_of(r, noise.stairs, noise.large);
+    const double removed = white_share_removed(tried.surface, tried.near, tried.responses, choice.weights, core);
+    const double certain = noise.certain * std::max(noise.white, removed) / (noise.factor * noise.factor);
+    choice.safe = std::min(1.0, 2 * certain);
+    choice.weights *=
+        std::min(safe_share(r.edges, choice.weights, certain), safe_share(r.heights, choice.weights, certain));
+    // What is expected goes with the deviation as it was found.
+    Risk expected = r.heights;
+    expected.constant /= noise.factor * noise.factor;
+    expected.linear /= noise.factor * noise.factor;
+    choice.before = expected.constant;
+    choice.gain = std::max(0.0, -2 * certain * r.heights.linear.dot(choice.weights) -
+                                    choice.weights.dot(r.heights.quadratic * choice.weights));
+    // What the blend leaves of the noise is an error in any case.
+    choice.after =
+        std::max(expected.at(choice.weights),
+                 noise_left(tried.responses, tried.probe, choice.weights, core) / (noise.factor * noise.factor));
+    return choice;
+}
+
+/// The core's vertices by the class that most of their noise belongs to.
+std::vector<std::vector<std::uint8_t>> cores_of(const NoiseClasses& classes, const std::vector<double>& deviation,
+                                                const std::vector<std::uint8_t>& core) {
+    std::vector<std::vector<std::uint8_t>> out(classes.count(), std::vector<std::uint8_t>(core.size(), 0));
+    for (std::size_t i = 0; i < core.size(); ++i) {
+        const std::array<double, 3> shares = classes.shares(deviation[i]);
+        const auto most = std::max_element(shares.begin(), shares.end()) - shares.begin();
+        out[static_cast<std::size_t>(most)][i] = core[i];
+    }
+    return out;
+}
+
+/// For each class of noise, and on the whole.
+Choice choice_by_class(const Tried& tried, const Assumed& noise, const NoiseClasses& classes,
+                       const std::vector<std::uint8_t>& core) {
+    if (classes.count() == 1) {
+        Choice choice = choice_of(tried, noise, core);
+        choice.of_class = {choice.weights};
+        return choice;
+    }
+    const double all = static_cast<double>(std::count(core.begin(), core.end(), 1));
+    Choice mean;
+    mean.safe = 0;
+    mean.weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(tried.responses.size()));
+    for (const auto& part : cores_of(classes, noise.deviation, core)) {
+        const Choice choice = choice_of(tried, noise, part);
+        const double share = static_cast<double>(std::count(part.begin(), part.end(), 1)) / all;
+        mean.weights += share * choice.weights;
+        mean.before += share * choice.before;
+        mean.after += share * choice.after;
+        mean.gain += share * choice.gain;
+        mean.safe += share * choice.safe;
+        mean.of_class.push_back(choice.weights);
+    }
+    return mean;
+}
+
+Choice choose_for(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+                  const Assumed& noise, const NoiseClasses& classes, const std::vector<std::uint8_t>& core,
+                  const std::function<void(double)>& tick) {
+    const CandidateMaker maker(faces, positions, at, near, noise.normal_steps, noise.deviation);
+    CandidateMaker::Responses responses = maker.responses([&](double f) { tick(0.8 * f); });
+    const AlongNormals surface(near, positions, maker.normal(), maker.weight());
+    const Tried tried{surface, near, responses.all, maker.probe()};
+    Choice choice = choice_by_class(tried, noise, classes, core);
+    if (std::any_of(choice.of_class.begin(), choice.of_class.end(),
+                    [](const Eigen::VectorXd& t) { return sharp_share(t) > mostly; })) {
+        maker.add_guided(responses, [&](double f) { tick(0.8 + 0.2 * f); });
+        choice = choice_by_class(tried, noise, classes, core);
+    }
+    return choice;
+}
+
+}  // namespace
+
+double sharp_share(const Eigen::VectorXd& t) {
+    const std::vector<std::uint8_t> sharp = sharp_candidates(t.size());
+    double share = 0;
+    for (Eigen::Index k = 0; k < t.size(); ++k)
+        if (sharp[static_cast<std::size_t>(k)]) share += t[k];
+    return share;
+}
+
+Choice choose(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+              const Assumed& noise, const NoiseClasses& classes, Index patches,
+              const std::function<void(double)>& tick) {
+    if (near.rows() <= whole_up_to)
+        return choose_for(faces, positions, at, near, noise, classes, std::vector<std::uint8_t>(near.rows(), 1), tick);
+    const Sample sample = patches_of(faces, positions, near, patches, patch_size);
+    Assumed assumed = noise;
+    assumed.deviation.resize(sample.vertex.size());
+    for (std::size_t i = 0; i < sample.vertex.size(); ++i) assumed.deviation[i] = noise.deviation[sample.vertex[i]];
+    return choose_for(sample.faces, sample.positions, sample.at, sample.near, assumed, classes, sample.core, tick);
+}
+
+}  // namespace multires

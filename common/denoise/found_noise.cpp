@@ -1,0 +1,109 @@
+#include "denoise/found_noise.h"
+
+#include "base/median.h"
+#include "base/reduce.h"
+#include "denoise/lattice.h"
+#include "denoise/varying_noise.h"
+#include "measure/measure.h"
+#include "measure/vertex_normals.h"
+#include "normals/guided_normals.h"
+#include "normals/spikes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace multires {
+namespace {
+
+constexpr int spike_steps = 3;              ///< of guided normals, for what impulses met: creases come back
+constexpr double certain_if_varying = 0.8;  ///< share of the square of noise that varies
+
+/// True if the vertices that moved stand out of the surface far more than what is left does: a rough surface has spikes
+/// of the common kind.
+bool stand_out(const Faces& faces, const Positions& before, const Positions& after, const Neighbours& near) {
+    const Array<Vec3> normal = vertex_normals(faces, taubin(near, after, 3));
+    const std::vector<double> zero(3 * before.size(), 0);
+    const std::vector<double> detail = AlongNormals(near, before, normal, {}).detail(zero);
+    const std::vector<double> left = AlongNormals(near, after, normal, {}).detail(zero);
+    std::vector<double> moved, rest;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (before[i] != after[i]) moved.push_back(std::abs(detail[3 * i]));
+        rest.push_back(std::abs(left[3 * i]));
+    }
+    return !moved.empty() && lower_quantile(moved, 0.5) > 1.3 * lower_quantile(rest, 0.8);
+}
+
+/// Noise that differs from place to place is white in most places, or it would not be found.
+void set_varying(std::vector<double> deviation, FoundNoise& m) {
+    m.deviation = std::move(deviation);
+    m.along_normals = rms(m.deviation);
+    m.certain = certain_if_varying;
+    m.noise.by_edges = 1;
+    m.noise.along_normals = m.along_normals;
+    m.noise.at_least = std::sqrt(m.certain) * m.along_normals;
+}
+
+}  // namespace
+
+int normal_steps(double deviation_in_edges) { return std::clamp(static_cast<int>(100 * deviation_in_edges), 3, 30); }
+
+std::vector<double> deviations(const Faces& faces, const Positions& positions, const Neighbours& near,
+                               const SurfaceNoise& noise, double edge) {
+    std::vector<double> out(positions.size(), noise.along_normals);
+    if (!noise.axis) return out;
+    const int steps = normal_steps(noise.axis->deviation / edge);
+    const Array<Vec3> normal = vertex_normals(faces, taubin(near, positions, steps));
+    for (std::size_t v = 0; v < out.size(); ++v) out[v] = noise.along(normal[v]);
+    return out;
+}
+
+Positions without_impulses(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+                           Index& spikes) {
+    Positions start = without_spikes(faces, positions, at, spikes);
+    if (spikes > 0 && !stand_out(faces, positions, start, near)) spikes = 0;
+    if (spikes == 0) return positions;
+    std::vector<std::uint8_t> moves(positions.size());
+    for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = start[i] != positions[i];
+    return guided_steps(faces, start, at, face_graph(faces, at), spike_steps, moves);
+}
+
+FoundNoise find_noise(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+                      const std::optional<double>& step, const std::optional<double>& known, double edge,
+                      const Tick& tick) {
+    FoundNoise m;
+    std::optional<SurfaceNoise> rounded;
+    if (step) rounded = rounding_noise(faces, positions, at, near, *step, edge);
+    m.rounded = rounded.has_value();
+    m.voxels = rounded && between_voxels(positions, *step);
+    if (m.voxels) {
+        // Half a voxel to each side along an edge that the surface crosses, so mostly along its normal.
+        rounded->along_normals = rounded->at_least = *step / std::sqrt(3.0);
+        rounded->all_directions = false;
+    }
+    tick(0.05, "Looking for noise that varies");
+    std::vector<double> varying;
+    if (!rounded && !known) varying = varying_noise(faces, positions, at, near);
+    if (!varying.empty()) m.noise = surface_noise(faces, positions, at, near, edge);
+    m.varies = !varying.empty() && !m.noise.axis;
+    if (m.varies) {
+        m.start = positions;
+        set_varying(std::move(varying), m);
+        if (m.along_normals > 0) find_varying_within_surface(faces, positions, near, m.deviation, m.noise);
+        return m;
+    }
+    tick(0.07, "Looking for impulsive noise");
+    m.start = rounded ? positions : without_impulses(faces, positions, at, near, m.spikes);
+    tick(0.1, "Measuring the noise");
+    m.noise = rounded ? *rounded : surface_noise(faces, m.start, at, near, edge);
+    if (known) {
+        m.noise.along_normals = m.noise.at_least = *known;
+        m.noise.white = m.noise.by_edges = 1;
+        m.noise.axis.reset();
+    }
+    m.deviation = deviations(faces, m.start, near, m.noise, edge);
+    m.along_normals = rms(m.deviation);
+    m.certain = m.along_normals > 0 ? std::pow(m.noise.at_least / m.along_normals, 2) : 0;
+    return m;
+}
+
+}  // namespace multires
