@@ -71,8 +71,8 @@ Scaled scaled(const std::vector<double>& values, int width, const std::vector<st
     s.noisy.width = static_cast<int>(active);
     s.noisy.values.resize(count * active);
     s.noisy.probe.resize(count * active);
-    s.noisy.deviation.assign(count, 0);
     if (active == 0) return s;
+    s.noisy.deviation.resize(count);
     parallel_for(static_cast<Index>(count), [&](Index v) {
         double squares = 0;
         for (std::size_t a = 0; a < active; ++a) squares += std::pow(local[s.channel[a]][v] / s.scale[a], 2);
@@ -296,8 +296,8 @@ void report_blend(const Scaled& s, const Blend& blend, int width, DenoisedValues
         }
     }
     for (int a = 0; a < s.noisy.width; ++a) out.noise[s.channel[a]] *= std::sqrt(blend.correction[a]);
-    out.rms_before = std::sqrt(out.rms_before * out.rms_before + before);
-    out.rms_after = std::sqrt(after);
+    out.rms_before = std::hypot(out.rms_before, std::sqrt(before));
+    out.rms_after = std::hypot(out.rms_after, std::sqrt(after));
 }
 
 /// Of values that were rounded, whose noise is known.
@@ -307,6 +307,19 @@ void smooth_steps(const ValueSurface& surface, const std::vector<double>& channe
     for (std::size_t v = 0; v < channel.size(); ++v) out.values[v * width + c] += smooth[v] - channel[v];
     out.noise[c] = step / std::sqrt(12.0);
     out.step = std::max(out.step, step);
+    // What is left of it is not known; no value leaves the step that the truth lies in.
+    const double squares = out.noise[c] * out.noise[c] / width;
+    out.rms_before = std::hypot(out.rms_before, std::sqrt(squares));
+    out.rms_after = std::hypot(out.rms_after, std::sqrt(squares));
+}
+
+/// @param deviation  #V: of the noise where it is not rounding, in units of its root mean square; may be empty
+void report_range(const std::vector<double>& deviation, DenoisedValues& out) {
+    out.smallest_noise = out.largest_noise = rms(out.noise);
+    if (deviation.empty()) return;
+    const auto [least, most] = std::minmax_element(deviation.begin(), deviation.end());
+    out.smallest_noise *= *least;
+    out.largest_noise *= *most;
 }
 
 }  // namespace
@@ -339,6 +352,8 @@ DenoisedValues denoise_values(const ValueSurface& surface, const std::vector<dou
     tick(0.1);
     std::vector<std::vector<double>> local(width);
     std::vector<double> channel(values.size() / width), moved(values.size());
+    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = out.values[i] - values[i];
+    out.rms_before = rms(moved);
     for (int c = 0; c < width; ++c) {
         for (std::size_t v = 0; v < channel.size(); ++v) channel[v] = out.values[v * width + c] - out.values[c];
         const double step = rounding_step(surface.near, channel);
@@ -355,19 +370,15 @@ DenoisedValues denoise_values(const ValueSurface& surface, const std::vector<dou
         out.noise[c] = rms(local[c]);
         for (double& d : local[c]) d *= strength;
     }
-    for (std::size_t i = 0; i < moved.size(); ++i) moved[i] = out.values[i] - values[i];
-    out.rms_before = rms(moved);
     tick(0.2);
     const Scaled s = scaled(out.values, width, local);
+    report_range(s.noisy.deviation, out);
     if (s.noisy.width == 0) return out;
-    const auto [least, most] = std::minmax_element(s.noisy.deviation.begin(), s.noisy.deviation.end());
-    const double all = rms(out.noise);
-    out.smallest_noise = *least * all;
-    out.largest_noise = *most * all;
     const ValueCandidateMaker maker(surface.near, surface.weight, surface.variation);
     Blend blend = chosen(maker, s.noisy, repaired.impulse, [&](double f) { tick(0.2 + 0.6 * f); });
     apply(surface, maker, s, repaired.impulse, width, blend, out.values);
     report_blend(s, blend, width, out);
+    report_range(s.noisy.deviation, out);
     return out;
 }
 

@@ -90,6 +90,30 @@ Channels channels_of(const Layer& layer, std::size_t index, bool linear_light) {
     return c;
 }
 
+/// False for what is the same at every vertex, as the colours are that hosts give a mesh when nobody else did.
+bool varies(const Attribute& a) {
+    return !a.values.empty() && !std::equal(a.values.begin() + a.width, a.values.end(), a.values.begin());
+}
+
+/// @param has  whether the layer has an attribute of that kind
+template <class Has>
+AttributeChoice first_of(const Has& has, bool wedges) {
+    AttributeChoice choice;
+    bool* chosen = &choice.color;
+    if (!has(AttributeKind::color)) {
+        if (has(AttributeKind::quality))
+            chosen = &choice.quality;
+        else if (wedges)
+            chosen = &choice.wedge_texcoord;
+        else if (has(AttributeKind::texcoord))
+            chosen = &choice.texcoord;
+        else if (has(AttributeKind::scalar) || has(AttributeKind::point))
+            chosen = &choice.custom;
+    }
+    *chosen = true;
+    return choice;
+}
+
 struct Changes {
     double largest = 0, squares = 0;
     Changes& operator+=(const Changes& o) {
@@ -102,26 +126,19 @@ struct Changes {
 }  // namespace
 
 AttributeChoice default_choice(const Layer* layer) {
-    const auto has = [&](AttributeKind kind) {
-        return layer && std::any_of(layer->attributes.begin(), layer->attributes.end(),
-                                    [&](const Attribute& a) { return a.kind == kind && a.name != "source_vertex"; });
+    if (!layer) return first_of([](AttributeKind) { return false; }, false);
+    const auto any = [&](const auto& suits) {
+        return std::any_of(layer->attributes.begin(), layer->attributes.end(), suits);
     };
-    const bool wedges = layer && !layer->wedges.empty();
-    const bool custom = has(AttributeKind::scalar) || has(AttributeKind::point);
-    AttributeChoice choice;
-    bool* chosen = &choice.color;
-    if (!has(AttributeKind::color)) {
-        if (has(AttributeKind::quality))
-            chosen = &choice.quality;
-        else if (wedges)
-            chosen = &choice.wedge_texcoord;
-        else if (has(AttributeKind::texcoord))
-            chosen = &choice.texcoord;
-        else if (custom)
-            chosen = &choice.custom;
-    }
-    *chosen = true;
-    return choice;
+    const auto there = [&](AttributeKind kind) {
+        return any([&](const Attribute& a) { return a.kind == kind && a.name != "source_vertex"; });
+    };
+    const auto varying = [&](AttributeKind kind) {
+        return any([&](const Attribute& a) { return a.kind == kind && a.name != "source_vertex" && varies(a); });
+    };
+    const bool wedges = !layer->wedges.empty();
+    const bool some = wedges || any([](const Attribute& a) { return a.name != "source_vertex" && varies(a); });
+    return some ? first_of(varying, wedges) : first_of(there, wedges);
 }
 
 std::vector<std::size_t> chosen_attributes(const Layer& layer, const AttributeChoice& choice) {

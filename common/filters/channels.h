@@ -19,7 +19,9 @@ struct AttributeChoice {
     std::string custom_names;     ///< for `custom`: names separated by commas; empty: all but "source_vertex"
 };
 
-/// The first of color, quality, wedge_texcoord, texcoord and custom that the layer has; color if it has none of them.
+/// The first of color, quality, wedge_texcoord, texcoord and custom that is not the same at every vertex; if all are,
+/// the first that the layer has; color if it has none.
+/// Cost: linear
 AttributeChoice default_choice(const Layer* layer);
 
 /// The vertex attributes chosen, as indices into Layer::attributes.

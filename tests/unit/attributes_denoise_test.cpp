@@ -137,6 +137,7 @@ TEST(DenoiseAttributes, FollowsNoiseThatVaries) {
     const Result result = denoise(with_quality(mesh, values), of_quality());
     EXPECT_LT(rms_difference(result.attributes[0].values, smooth), 0.3 * std::sqrt(squares));
     EXPECT_LT(reported<double>(result, "quality_noise_least"), 0.1);
+    EXPECT_LT(reported<double>(result, "quality_noise_least"), reported<double>(result, "quality_noise"));
     EXPECT_NEAR(reported<double>(result, "quality_noise_most"), 0.35, 0.08);
 }
 
@@ -168,6 +169,19 @@ TEST(DenoiseAttributes, SmoothsRoundedValuesWithinTheirSteps) {
     const std::vector<double>& after = result.attributes[0].values;
     for (std::size_t i = 0; i < after.size(); ++i) EXPECT_LE(std::abs(after[i] - values[i]), step / 2 + 1e-12);
     EXPECT_LT(rms_difference(after, smooth), 0.7 * rms_difference(values, smooth));
+    const double noise = reported<double>(result, "quality_noise");
+    EXPECT_NEAR(noise, rms_difference(values, smooth), 0.1 * noise);
+    for (const char* name :
+         {"quality_noise_least", "quality_noise_most", "quality_estimated_rms_before", "quality_estimated_rms_after"})
+        EXPECT_DOUBLE_EQ(reported<double>(result, name), noise) << name;
+}
+
+TEST(DenoiseAttributes, SameNoiseEverywhereHasNoRange) {
+    const Result result = denoise(scene().with_noise(0.3, 0), of_quality());
+    const double noise = reported<double>(result, "quality_noise");
+    EXPECT_GT(noise, 0.25);
+    EXPECT_NEAR(reported<double>(result, "quality_noise_least"), noise, 1e-9);
+    EXPECT_NEAR(reported<double>(result, "quality_noise_most"), noise, 1e-9);
 }
 
 /// Signals between 0 and 1: smooth, textured with waves of a few edges, and with steps.

@@ -257,5 +257,19 @@ TEST(RelaxAttributes, DefaultIsTheFirstAttributeThereIs) {
     EXPECT_TRUE(default_choice(&layer).quality && !default_choice(&layer).wedge_texcoord);
 }
 
+// Hosts say that a mesh has colours, all white, when nobody gave it any.
+TEST(RelaxAttributes, DefaultPassesOverWhatIsTheSameEverywhere) {
+    Layer layer;
+    layer.mesh = shapes::icosphere(2);
+    const auto white = [](Index, int) { return 255.0; };
+    layer.attributes = {attribute(layer.mesh, AttributeKind::color, 4, white),
+                        attribute(layer.mesh, AttributeKind::quality, 1, random_value)};
+    EXPECT_TRUE(default_choice(&layer).quality && !default_choice(&layer).color);
+    layer.attributes[0].values.back() = 254;
+    EXPECT_TRUE(default_choice(&layer).color);
+    layer.attributes = {attribute(layer.mesh, AttributeKind::quality, 1, white)};
+    EXPECT_TRUE(default_choice(&layer).quality);
+}
+
 }  // namespace
 }  // namespace multires
