@@ -31,12 +31,25 @@ Values least(const JoinedVertices& seams, const Values& all) {
     return out;
 }
 
+/// Texture coordinates of the vertices as those of the corners.
+std::vector<Wedge> by_corners(const Faces& faces, const Attribute& texcoord) {
+    std::vector<Wedge> out;
+    out.reserve(3 * faces.size());
+    for (const Face& f : faces)
+        for (const Index v : f)
+            out.push_back({texcoord.values[2 * std::size_t(v)], texcoord.values[2 * std::size_t(v) + 1], 0});
+    return out;
+}
+
 Layer closed(const JoinedVertices& seams, const Layer& layer) {
     Layer out = layer;
     out.mesh.positions = at(seams.first, layer.mesh.positions);
     for (Face& f : out.mesh.faces)
         for (Index& v : f) v = seams.joined[v];
     if (!layer.selected_vertex.empty()) out.selected_vertex = least(seams, layer.selected_vertex);
+    for (const Attribute& a : layer.attributes)
+        if (a.kind == AttributeKind::texcoord && layer.wedges.empty())
+            out.cut_texcoord = by_corners(layer.mesh.faces, a);
     for (Attribute& a : out.attributes)
         a.values = a.kind == AttributeKind::quality ? least(seams, a.values) : at(seams.first, a.values, a.width);
     return out;

@@ -34,9 +34,16 @@ struct Layer {
     std::vector<std::uint8_t> faux_edges;       ///< #F, bit k = edge (k, k+1) is faux; empty if none is
     std::vector<std::uint8_t> selected_edges;   ///< #F, bit k = edge (k, k+1) is selected; empty if none is
     std::vector<Wedge> wedges;  ///< 3 #F, corner k of face f at 3 f + k; empty if not asked for or not there
+    /// 3 #F: the vertices' texture coordinates before these were joined along seams, where they may differ; or empty.
+    std::vector<Wedge> cut_texcoord;
     /// Places the mesh in the document, where several layers meet; filters of one layer work in its own coordinates.
     Eigen::Matrix4d to_world = Eigen::Matrix4d::Identity();
 };
+
+/// Texture coordinates of the corners, 3 #F, where those of a vertex may differ; empty otherwise.
+inline const std::vector<Wedge>& corner_texcoords(const Layer& layer) {
+    return layer.wedges.empty() ? layer.cut_texcoord : layer.wedges;
+}
 
 /// The custom vertex attribute of layers made of a DerivedMesh that holds its source_vertex.
 inline constexpr const char* source_vertex_name = "source_vertex";

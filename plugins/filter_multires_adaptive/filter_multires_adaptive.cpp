@@ -10,19 +10,26 @@
 namespace multires::plugin {
 namespace {
 
-/// A tenth of the faces where a target is chosen; the whole selection where there is one.
+/// A tenth of the faces where a target is chosen. Where texture coordinates jump, faces that straddle the seam would
+/// show the texture torn: so they count.
 AdaptiveOptions adaptive_defaults(const Layer* layer) {
     AdaptiveOptions o;
     if (!layer) return o;
     o.faces = static_cast<int>(layer->mesh.faces.size() / 10);
     o.vertices = static_cast<int>(layer->mesh.positions.size() / 10);
+    o.texcoord.use = !corner_texcoords(*layer).empty();
     o.band = default_band(*layer, Unit::wavelength);
     return o;
 }
 
+Parameter& bind_use(Parameters& p, const std::string& name, DetailThreshold& t, const std::string& label,
+                    const std::string& more = "") {
+    return p.add("use_" + name, &t.use, "Use " + label, "Keep vertices for the sake of their " + label + "." + more)
+        .in("Details");
+}
+
 void bind_threshold(Parameters& p, const std::string& name, DetailThreshold& t, const std::string& label,
                     const std::string& unit) {
-    p.add("use_" + name, &t.use, "Use " + label, "Keep vertices for the sake of their " + label + ".").in("Details");
     p.add(name + "_threshold", &t.threshold, "Threshold of " + label,
           "Vertices whose detail is at least this long are kept: " + unit +
               ". 0 keeps all. With a target other than the threshold it only says how the kinds of detail compare.")
@@ -56,11 +63,18 @@ void bind_target(Parameters& p, AdaptiveOptions& o) {
 
 void bind_adaptive(Parameters& p, AdaptiveOptions& o) {
     bind_target(p, o);
+    bind_use(p, "geometry", o.geometry, "shape");
     bind_threshold(p, "geometry", o.geometry, "shape", "in the unit of lengths");
+    bind_use(p, "color", o.color, "colour");
     bind_threshold(p, "color", o.color, "colour", "length of the difference in red, green, blue and alpha, 0 to 255");
+    bind_use(p, "quality", o.quality, "quality");
     bind_threshold(p, "quality", o.quality, "quality", "in the measure of the vertex quality");
+    bind_use(p, "texcoord", o.texcoord, "texture coordinates",
+             " Seams of the texture stay seams: no face straddles them. On if there can be any.")
+        .derived();
     bind_threshold(p, "texcoord", o.texcoord, "texture coordinates",
                    "length of the difference in u and v, of wedges if there are any, of vertices otherwise");
+    bind_use(p, "normal", o.normal, "normals");
     bind_threshold(p, "normal", o.normal, "normals", "degrees");
     p.add("criterion", Choice(o.criterion, {"area error", "local error", "detail"}), "Detail of shape",
           "Area error: what removing the vertex adds to the RMS distance of the surfaces; the fewest faces for an "

@@ -175,9 +175,9 @@ const Plugin& table() {
                     std::string(
                         "Makes a new layer with the mesh of one level of the pyramid, or of any number of vertices: a "
                         "subset of the vertices with all their attributes. A region (the selection, a box or a sphere) "
-                        "may keep all its detail, with ever larger faces around it. The custom vertex attribute "
-                        "<i>source_vertex</i> holds the index of "
-                        "each in the input.<br>") +
+                        "may keep all its detail, with ever larger faces around it. Faces of coarse levels may "
+                        "straddle the seams of a texture; those of Adaptive Reconstruction do not. The custom vertex "
+                        "attribute <i>source_vertex</i> holds the index of each in the input.<br>") +
                         cite_roy,
                     MenuClass::layer, faces | closed_seams, vertex_attributes, new_layer,
                     level_returns + pyramid_returns},

@@ -226,7 +226,8 @@ TEST(Seams, LevelsHaveTheirChartsAndNoCracks) {
     const Layer layer = in_two_charts(two);
     for (const auto& [name, values] : std::vector<std::pair<const char*, plugin::Given>>{
              {"generate_multires_level", {}},
-             {"generate_multires_adaptive_reconstruction", {{"target", 2}, {"vertices", 800}}}}) {
+             {"generate_multires_adaptive_reconstruction",
+              {{"target", 2}, {"vertices", 800}, {"use_texcoord", false}}}}) {
         SCOPED_TRACE(name);
         Session one, other;
         const Result expected = plugin::run(filter_named(name), layer_of(whole), one, values),
@@ -249,6 +250,42 @@ TEST(Seams, LevelsHaveTheirChartsAndNoCracks) {
         }
         EXPECT_GT(static_cast<double>(kept), 0.95 * 3 * static_cast<double>(mesh.faces.size()));
     }
+}
+
+// Whichever way the host holds a texture: no face of a reconstruction straddles its seams.
+TEST(Seams, OfTexturesOfVerticesAreThoseOfWedges) {
+    const Mesh whole = shapes::scan(3000), two = cut(whole, right);
+    const Layer cut_layer = in_two_charts(two);
+    ASSERT_EQ(two.faces.size(), whole.faces.size());
+    Layer wedged = layer_of(whole);
+    const std::vector<double>& texcoord = cut_layer.attributes[0].values;
+    for (const Face& f : two.faces)
+        for (const Index v : f) wedged.wedges.push_back({texcoord[2 * v], texcoord[2 * v + 1], 0});
+    const plugin::Filter& filter = filter_named("generate_multires_adaptive_reconstruction");
+    Session one, other, third;
+    const plugin::Given vertices = {{"target", 2}, {"vertices", 300}};
+    const Result expected = plugin::run(filter, wedged, one, vertices),
+                 found = plugin::run(filter, cut_layer, other, vertices);
+    EXPECT_EQ(corners(*found.layer, two), corners(*expected.layer, whole));
+    const auto straddling = [&](const DerivedMesh& mesh) {
+        std::size_t faces = 0;
+        for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
+            const auto chart = [&](Index v) { return texcoord[2 * v] > 5; };
+            const Face& source = two.faces[mesh.source_face[f]];
+            // A corner of the chart, or one on the seam, which is in both.
+            const auto in_chart = [&](Index v) {
+                for (Index w = 0; w < static_cast<Index>(two.positions.size()); ++w)
+                    if (two.positions[w] == two.positions[v] && chart(w) == chart(source[0])) return true;
+                return false;
+            };
+            for (const Index v : mesh.faces[f]) faces += !in_chart(mesh.source_vertex[v]);
+        }
+        return faces;
+    };
+    EXPECT_EQ(straddling(*found.layer), 0);
+    const Result torn =
+        plugin::run(filter, cut_layer, third, {{"target", 2}, {"vertices", 300}, {"use_texcoord", false}});
+    EXPECT_GT(straddling(*torn.layer), 10);
 }
 
 TEST(Seams, AreThereStillIfNoVertexIsRemoved) {

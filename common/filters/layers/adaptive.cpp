@@ -60,7 +60,7 @@ Layer filtered(const Layer& layer, const AdaptiveOptions& o, Session& session) {
     return out;
 }
 
-/// Bit k of face f: the wedges at edge (k, k+1) differ from those of the neighbour across it.
+/// Bit k of face f: the texture coordinates at edge (k, k+1) differ from those of the neighbour across it.
 std::vector<std::uint8_t> seam_edges(const Layer& layer) {
     struct Side {
         Index low, high, face;
@@ -68,6 +68,7 @@ std::vector<std::uint8_t> seam_edges(const Layer& layer) {
     };
     std::vector<Side> sides;
     const Faces& faces = layer.mesh.faces;
+    const std::vector<Wedge>& corner = corner_texcoords(layer);
     for (std::size_t f = 0; f < faces.size(); ++f)
         for (int k = 0; k < 3; ++k) {
             const auto [low, high] = std::minmax(faces[f][k], faces[f][(k + 1) % 3]);
@@ -77,7 +78,7 @@ std::vector<std::uint8_t> seam_edges(const Layer& layer) {
         return std::tie(a.low, a.high, a.face, a.k) < std::tie(b.low, b.high, b.face, b.k);
     });
     const auto wedge = [&](const Side& s, Index vertex) {
-        const Wedge& w = layer.wedges[3 * s.face + (faces[s.face][s.k] == vertex ? s.k : (s.k + 1) % 3)];
+        const Wedge& w = corner[3 * s.face + (faces[s.face][s.k] == vertex ? s.k : (s.k + 1) % 3)];
         return std::make_tuple(w.u, w.v, w.texture);
     };
     std::vector<std::uint8_t> seam(faces.size(), 0);
@@ -168,7 +169,8 @@ void report_thresholds(AdaptiveOptions o, double scale, Report& report) {
 Rings adaptive_rings(const Layer& layer, const AdaptiveOptions& options) {
     Rings rings = vertex_rings(layer.mesh);
     mark_features(rings, layer, options.features, options.feature_angle);
-    if (options.texcoord.use && !layer.wedges.empty()) mark_features(rings, layer.mesh.faces, seam_edges(layer));
+    if (options.texcoord.use && !corner_texcoords(layer).empty())
+        mark_features(rings, layer.mesh.faces, seam_edges(layer));
     return rings;
 }
 

@@ -43,7 +43,7 @@ struct AdaptiveOptions {
     DetailThreshold geometry{true, 0.05};   ///< in `unit`
     DetailThreshold color{false, 16};       ///< length of (r, g, b, a) in 0..255
     DetailThreshold quality{false, 1};      ///< in the measure of the quality
-    DetailThreshold texcoord{false, 0.01};  ///< length of (u, v); of wedges if there are any, else of vertices
+    DetailThreshold texcoord{false, 0.01};  ///< length of (u, v); of corners where they may differ, else of vertices
     DetailThreshold normal{false, 10};      ///< degrees
     int faces = 1000;                       ///< >= 0, for Target::faces
     int vertices = 500;                     ///< >= 0, for Target::vertices; unreferenced ones are not counted
@@ -74,8 +74,8 @@ Result adaptive_reconstruction(const Layer& layer, const AdaptiveOptions& option
 
 constexpr double boundary_weight = 3;  ///< of the boundary in costs and geometric details
 
-/// Rings of the layer, with features marked. With use_texcoord, seams of wedge texture coordinates are features, too:
-/// vertices on them go only along them.
+/// Rings of the layer, with features marked. With use_texcoord, seams of the texture are features, too: vertices on
+/// them go only along them.
 Rings adaptive_rings(const Layer& layer, const AdaptiveOptions& options);
 
 /// The hierarchy adaptive reconstruction uses: memoryless costs, small sets. Has no even rings.

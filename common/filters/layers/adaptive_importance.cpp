@@ -107,10 +107,11 @@ std::vector<double> field_details(const Hierarchy& h, const Field& f, Operator o
 /// Details of wedges: each wedge of a vertex is predicted from the nearest wedges of its neighbours; the longest
 /// counts.
 std::vector<double> wedge_details(const Layer& layer, const Hierarchy& h, Operator op) {
+    const std::vector<Wedge>& corner = corner_texcoords(layer);
     std::vector<std::vector<Wedge>> at(h.vertices());  // by input vertex, all different
     for (std::size_t f = 0; f < layer.mesh.faces.size(); ++f)
         for (int k = 0; k < 3; ++k) {
-            const Wedge& w = layer.wedges[3 * f + k];
+            const Wedge& w = corner[3 * f + k];
             auto& list = at[layer.mesh.faces[f][k]];
             if (std::none_of(list.begin(), list.end(), [&](const Wedge& o) { return o.u == w.u && o.v == w.v; }))
                 list.push_back(w);
@@ -196,9 +197,10 @@ std::vector<double> importance(const Layer& layer, const Rings& rings, const Hie
         return attribute_details(layer, h, o.op, AttributeKind::quality, "use_quality: the mesh has no vertex quality");
     });
     add(o.texcoord, 1, [&] {
-        return !layer.wedges.empty() ? wedge_details(layer, h, o.op)
-                                     : attribute_details(layer, h, o.op, AttributeKind::texcoord,
-                                                         "use_texcoord: the mesh has no texture coordinates");
+        return !corner_texcoords(layer).empty()
+                   ? wedge_details(layer, h, o.op)
+                   : attribute_details(layer, h, o.op, AttributeKind::texcoord,
+                                       "use_texcoord: the mesh has no texture coordinates");
     });
     add(o.normal, 1, [&] {
         std::vector<double> detail = field_details(h, to_places(h, unit_normals(layer)), o.op);

@@ -896,8 +896,9 @@ def level_as_layer(
     """Makes a new layer with the mesh of one level of the pyramid, or of any number of vertices: a subset of the
     vertices with all their attributes.
 
-    A region (the selection, a box or a sphere) may keep all its detail, with ever larger faces around it. The custom
-    vertex attribute source_vertex holds the index of each in the input.
+    A region (the selection, a box or a sphere) may keep all its detail, with ever larger faces around it. Faces of
+    coarse levels may straddle the seams of a texture; those of Adaptive Reconstruction do not. The custom vertex
+    attribute source_vertex holds the index of each in the input.
 
     The filter generate_multires_level, on the current mesh; the mesh is unchanged if it fails.
 
@@ -1958,7 +1959,7 @@ def adaptive_reconstruction(
     unit: Literal["mesh units", "percent"] = "percent", faces: int | None = None, vertices: int | None = None,
     error: float = 0.1, use_geometry: bool = True, geometry_threshold: float = 0.05, use_color: bool = False,
     color_threshold: float = 16.0, use_quality: bool = False, quality_threshold: float = 1.0,
-    use_texcoord: bool = False, texcoord_threshold: float = 0.01, use_normal: bool = False,
+    use_texcoord: bool | None = None, texcoord_threshold: float = 0.01, use_normal: bool = False,
     normal_threshold: float = 10.0, criterion: Literal["area error", "local error", "detail"] = "area error",
     region_of_interest: bool = False, fit: bool = False, measure: bool = True, band_gain: float = 1.0,
     finest: float | None = None, coarsest: float | None = None, operator: Operator = "cotangent Delaunay",
@@ -1994,7 +1995,8 @@ def adaptive_reconstruction(
         quality_threshold: Vertices whose detail is at least this long are kept: in the measure of the vertex quality. 0
             keeps all. With a target other than the threshold it only says how the kinds of detail compare. A number, at
             least 0.
-        use_texcoord: Keep vertices for the sake of their texture coordinates.
+        use_texcoord: Keep vertices for the sake of their texture coordinates. Seams of the texture stay seams: no face
+            straddles them. On if there can be any. None: derived from the mesh.
         texcoord_threshold: Vertices whose detail is at least this long are kept: length of the difference in u and v,
             of wedges if there are any, of vertices otherwise. 0 keeps all. With a target other than the threshold it
             only says how the kinds of detail compare. A number, at least 0.
