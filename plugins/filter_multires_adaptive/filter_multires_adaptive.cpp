@@ -2,6 +2,7 @@
 #include "shared/returns.h"
 
 #include "filters/layers/adaptive.h"
+#include "filters/layers/texture_seams.h"
 
 #include <cmath>
 
@@ -17,7 +18,7 @@ AdaptiveOptions adaptive_defaults(const Layer* layer) {
     if (!layer) return o;
     o.faces = static_cast<int>(layer->mesh.faces.size() / 10);
     o.vertices = static_cast<int>(layer->mesh.positions.size() / 10);
-    o.texcoord.use = !corner_texcoords(*layer).empty();
+    o.texcoord.use = can_keep_seams(*layer);
     o.band = default_band(*layer, Unit::wavelength);
     return o;
 }
@@ -69,8 +70,10 @@ void bind_adaptive(Parameters& p, AdaptiveOptions& o) {
     bind_threshold(p, "color", o.color, "colour", "length of the difference in red, green, blue and alpha, 0 to 255");
     bind_use(p, "quality", o.quality, "quality");
     bind_threshold(p, "quality", o.quality, "quality", "in the measure of the vertex quality");
-    bind_use(p, "texcoord", o.texcoord, "texture coordinates",
-             " Seams of the texture stay seams: no face straddles them. On if there can be any.")
+    bind_use(
+        p, "texcoord", o.texcoord, "texture coordinates",
+        " Seams of the texture stay seams: no face straddles them. On by default if there can be any, unless they meet "
+        "at more than a twentieth of the vertices, which could not go then.")
         .derived();
     bind_threshold(p, "texcoord", o.texcoord, "texture coordinates",
                    "length of the difference in u and v, of wedges if there are any, of vertices otherwise");

@@ -1,5 +1,6 @@
 #include "filters/layers/adaptive.h"
 
+#include "filters/layers/texture_seams.h"
 #include "hierarchy_checks.h"
 #include "measure/distance.h"
 #include "measure/measure.h"
@@ -53,11 +54,27 @@ Mesh mesh_of(const DerivedMesh& d, const Mesh& input) {
 
 std::set<Index> vertices_of(const Result& r) { return {r.layer->source_vertex.begin(), r.layer->source_vertex.end()}; }
 
-/// A mesh with the topology of the input, on its vertices.
-void expect_valid(const DerivedMesh& d, const Mesh& input) {
-    const Mesh mesh = mesh_of(d, input);
+/// Every face once: the surface without copies and backs of faces.
+Mesh once(const Mesh& mesh) {
+    Mesh out{mesh.positions, {}};
+    std::set<Face> seen;
+    std::vector<Face> kept;
+    for (const Face& f : mesh.faces) {
+        Face sorted = f;
+        std::sort(sorted.begin(), sorted.end());
+        if (seen.insert(sorted).second) kept.push_back(f);
+    }
+    out.faces = Faces(kept.begin(), kept.end());
+    return out;
+}
+
+/// A mesh on vertices of the input, whose surface has the topology of the input's.
+void expect_valid(const DerivedMesh& d, const Mesh& input_with_copies) {
+    const Mesh mesh_with_copies = mesh_of(d, input_with_copies);
     ASSERT_EQ(d.faces.size(), d.source_face.size());
     ASSERT_TRUE(std::is_sorted(d.source_vertex.begin(), d.source_vertex.end()));
+    EXPECT_LE(count_input(mesh_with_copies).duplicate_faces, count_input(input_with_copies).duplicate_faces);
+    const Mesh mesh = once(mesh_with_copies), input = once(input_with_copies);
     const InputCounts before = count_input(input), after = count_input(mesh);
     EXPECT_EQ(fixtures::euler(mesh), fixtures::euler(input));
     EXPECT_EQ(after.components, before.components);
@@ -65,7 +82,6 @@ void expect_valid(const DerivedMesh& d, const Mesh& input) {
     EXPECT_EQ(after.non_manifold_edges, before.non_manifold_edges);
     EXPECT_EQ(after.non_manifold_vertices, before.non_manifold_vertices);
     EXPECT_EQ(after.non_orientable_components, before.non_orientable_components);
-    EXPECT_EQ(after.duplicate_faces, before.duplicate_faces);
     EXPECT_LE(after.inconsistent_edges, before.inconsistent_edges);
     EXPECT_LE(after.zero_area_faces, before.zero_area_faces);
 }
@@ -460,6 +476,25 @@ TEST(Adaptive, SeamsOfWedgesStaySeams) {
     }
 }
 
+TEST(Adaptive, TexturesOfManyChartsAreNotKept) {
+    Layer layer = layer_of(shapes::plane(20, {0, 0, 1}));
+    EXPECT_FALSE(can_keep_seams(layer));
+    const auto charts = [&](double width) {
+        layer.wedges.clear();
+        for (const Face& f : layer.mesh.faces) {
+            const Vec3 centre =
+                (layer.mesh.positions[f[0]] + layer.mesh.positions[f[1]] + layer.mesh.positions[f[2]]) / 3;
+            for (const Index v : f)
+                layer.wedges.push_back({layer.mesh.positions[v].x() + 3 * std::floor(centre.x() / width),
+                                        layer.mesh.positions[v].y() + 3 * std::floor(centre.y() / width)});
+        }
+    };
+    charts(0.5);
+    EXPECT_TRUE(can_keep_seams(layer));
+    charts(0.05);
+    EXPECT_FALSE(can_keep_seams(layer)) << "each square by itself";
+}
+
 TEST(Adaptive, RegionOfInterestStaysInFull) {
     Layer layer = layer_of(shapes::scan(2000));
     layer.selected_face.assign(layer.mesh.faces.size(), 0);
@@ -506,7 +541,7 @@ TEST(Adaptive, FitFlipsNothingAndKeepsTheBoundaryOnEveryClass) {
             const Mesh before = mesh_of(*plain.layer, mesh), after = mesh_of(*r.layer, mesh);
             EXPECT_EQ(compare(before.faces, before.positions, after.positions).flipped_faces, 0);
             expect_valid(*r.layer, mesh);
-            const Rings rings = vertex_rings(before);
+            const Rings rings = surface_rings(before);
             for (Index v = 0; v < rings.rows(); ++v)
                 if (rings.kind[v] != RingKind::closed) {
                     ASSERT_EQ(before.positions[v], after.positions[v]);
@@ -569,6 +604,39 @@ TEST(Adaptive, FitIsNoWorseThanVerticesOfTheInputOnAnyClass) {
             EXPECT_LE(value(fit, "rms_distance"), value(plain, "rms_distance") + 1e-6 * diagonal);
             EXPECT_LE(value(fit, "faces"), std::max<double>(o.faces, value(plain, "faces")));
         }
+}
+
+// Modelling programs write backs of faces as faces: what is asked for is the number of all.
+TEST(Adaptive, DoubleSidedMeshesAreReconstructedLikeSingleSided) {
+    const Mesh single = shapes::irregular_sphere(3000);
+    Mesh both = single;
+    std::vector<Face> faces(single.faces.begin(), single.faces.end());
+    for (const Face& f : single.faces) faces.push_back({f[0], f[2], f[1]});
+    both.faces = Faces(faces.begin(), faces.end());
+    for (const bool fit : {false, true}) {
+        SCOPED_TRACE(fit);
+        AdaptiveOptions o = with_threshold(0.1);
+        o.target = Target::faces;
+        o.fit = fit;
+        o.measure = true;
+        o.faces = 1200;
+        const Result of_both = run(layer_of(both), o);
+        o.faces = 600;
+        const Result of_single = run(layer_of(single), o);
+        EXPECT_EQ(value(of_both, "faces"), 2 * value(of_single, "faces"));
+        EXPECT_LT(value(of_both, "rms_distance"), 1.3 * value(of_single, "rms_distance"));
+        expect_valid(*of_both.layer, both);
+        EXPECT_EQ(count_input(mesh_of(*of_both.layer, both)).duplicate_faces, value(of_single, "faces"));
+    }
+    // Front and back have other places in the texture: no edge is a seam for that.
+    Layer textured = layer_of(both);
+    for (std::size_t f = 0; f < both.faces.size(); ++f)
+        for (const Index v : both.faces[f])
+            textured.wedges.push_back(
+                {both.positions[v].x() + (f < single.faces.size() ? 0 : 5), both.positions[v].y(), 0});
+    AdaptiveOptions o = with_threshold(1000);
+    o.texcoord = {true, 1000};
+    EXPECT_LT(value(run(textured, o), "faces"), 100);
 }
 
 TEST(Adaptive, MovingOnTheWayLeavesDamagedMeshesValid) {

@@ -1,6 +1,7 @@
 #include "filters/layers/adaptive.h"
 
 #include "filters/layers/adaptive_search.h"
+#include "filters/layers/texture_seams.h"
 #include "measure/distance.h"
 #include "measure/measure.h"
 #include "mesh/adjacency.h"
@@ -9,7 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <numeric>
 
 namespace multires {
 namespace {
@@ -60,45 +61,13 @@ Layer filtered(const Layer& layer, const AdaptiveOptions& o, Session& session) {
     return out;
 }
 
-/// Bit k of face f: the texture coordinates at edge (k, k+1) differ from those of the neighbour across it.
-std::vector<std::uint8_t> seam_edges(const Layer& layer) {
-    struct Side {
-        Index low, high, face;
-        int k;
-    };
-    std::vector<Side> sides;
-    const Faces& faces = layer.mesh.faces;
-    const std::vector<Wedge>& corner = corner_texcoords(layer);
-    for (std::size_t f = 0; f < faces.size(); ++f)
-        for (int k = 0; k < 3; ++k) {
-            const auto [low, high] = std::minmax(faces[f][k], faces[f][(k + 1) % 3]);
-            sides.push_back({low, high, static_cast<Index>(f), k});
-        }
-    std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
-        return std::tie(a.low, a.high, a.face, a.k) < std::tie(b.low, b.high, b.face, b.k);
-    });
-    const auto wedge = [&](const Side& s, Index vertex) {
-        const Wedge& w = corner[3 * s.face + (faces[s.face][s.k] == vertex ? s.k : (s.k + 1) % 3)];
-        return std::make_tuple(w.u, w.v, w.texture);
-    };
-    std::vector<std::uint8_t> seam(faces.size(), 0);
-    for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-        const Side &a = sides[i], &b = sides[i + 1];
-        if (a.low != b.low || a.high != b.high) continue;
-        if (wedge(a, a.low) == wedge(b, a.low) && wedge(a, a.high) == wedge(b, a.high)) continue;
-        seam[a.face] |= 1 << a.k;
-        seam[b.face] |= 1 << b.k;
-    }
-    return seam;
-}
-
 /// Makes reconstructions of one layer.
 class Reconstructor {
 public:
     Reconstructor(const Layer& layer, const AdaptiveOptions& options, const Hierarchy& h, const Insertion& insertion)
         : layer_(layer), options_(options), h_(h), insertion_(insertion), region_(selected_region(layer)) {
-        const auto base = mesh_of_set(h, layer.mesh.faces, inserted(insertion, h.size.back()));
-        base_faces_ = static_cast<int>(base.faces.size());
+        base_faces_ = faces_of(h.size.back());
+        all_faces_ = std::accumulate(insertion.faces.begin(), insertion.faces.end(), base_faces_);
     }
 
     Reconstruction make(Index count, bool measure) const {
@@ -134,6 +103,7 @@ public:
 
     /// The largest prefix with at most so many faces, and at least `least` vertices.
     Index count_for_faces(Index least, int most) const {
+        if (all_faces_ != static_cast<int>(layer_.mesh.faces.size())) return searched_for_faces(least, most);
         int faces = base_faces_;
         Index count = h_.size.back();
         while (count < h_.vertices()) {
@@ -145,12 +115,29 @@ public:
     }
 
 private:
+    int faces_of(Index count) const {
+        return static_cast<int>(mesh_of_set(h_, layer_.mesh.faces, inserted(insertion_, count)).faces.size());
+    }
+
+    /// The same where faces are there twice, so that vertices come with more of them than their rings say.
+    Index searched_for_faces(Index least, int most) const {
+        Index low = std::max(least, h_.size.back()), high = h_.vertices();
+        while (low < high) {
+            const Index middle = low + (high - low + 1) / 2;
+            if (faces_of(middle) <= most)
+                low = middle;
+            else
+                high = middle - 1;
+        }
+        return low;
+    }
+
     const Layer& layer_;
     const AdaptiveOptions& options_;
     const Hierarchy& h_;
     const Insertion& insertion_;
     std::vector<std::uint8_t> region_;
-    int base_faces_;
+    int base_faces_, all_faces_;  ///< the second by what vertices bring with them
 };
 
 void report_thresholds(AdaptiveOptions o, double scale, Report& report) {
@@ -167,10 +154,10 @@ void report_thresholds(AdaptiveOptions o, double scale, Report& report) {
 }  // namespace
 
 Rings adaptive_rings(const Layer& layer, const AdaptiveOptions& options) {
-    Rings rings = vertex_rings(layer.mesh);
+    Rings rings = surface_rings(layer.mesh);
     mark_features(rings, layer, options.features, options.feature_angle);
     if (options.texcoord.use && !corner_texcoords(layer).empty())
-        mark_features(rings, layer.mesh.faces, seam_edges(layer));
+        mark_features(rings, layer.mesh.faces, texture_seams(layer).edges);
     return rings;
 }
 

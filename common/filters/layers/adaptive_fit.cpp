@@ -174,7 +174,7 @@ Positions without_flips(const Faces& faces, const Positions& before, Positions m
 Positions fitted(const Mesh& input, const Faces& faces, const Positions& positions,
                  const std::vector<std::uint8_t>& fixed) {
     std::vector<std::uint8_t> stay = fixed;
-    const Rings rings = vertex_rings({positions, faces});
+    const Rings rings = surface_rings({positions, faces});
     for (std::size_t v = 0; v < stay.size(); ++v) stay[v] |= rings.kind[v] != RingKind::closed;
     const std::vector<double> area = area_shares(input.faces, input.positions);
     Positions now = positions;

@@ -60,7 +60,8 @@ std::optional<Result> moving_reconstruction(const Layer& layer, const AdaptiveOp
     std::optional<Reconstruction> r;
     if (o.target == Target::faces) {
         r = maker.make({o.base_vertices, o.faces}, progress);
-        if (static_cast<int>(r->mesh.faces.size()) > o.faces) return {};
+        const int faces = static_cast<int>(r->mesh.faces.size());
+        if (faces > o.faces || faces + 1 < o.faces) return {};  // too few where faces that are there twice counted once
     } else if (o.target == Target::vertices) {
         const Index wanted = std::min(std::max(o.vertices, o.base_vertices), maker.all());
         r = maker.make({wanted, 0}, progress);

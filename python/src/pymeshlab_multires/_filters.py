@@ -1996,7 +1996,8 @@ def adaptive_reconstruction(
             keeps all. With a target other than the threshold it only says how the kinds of detail compare. A number, at
             least 0.
         use_texcoord: Keep vertices for the sake of their texture coordinates. Seams of the texture stay seams: no face
-            straddles them. On if there can be any. None: derived from the mesh.
+            straddles them. On by default if there can be any, unless they meet at more than a twentieth of the
+            vertices, which could not go then. None: derived from the mesh.
         texcoord_threshold: Vertices whose detail is at least this long are kept: length of the difference in u and v,
             of wedges if there are any, of vertices otherwise. 0 keeps all. With a target other than the threshold it
             only says how the kinds of detail compare. A number, at least 0.
