@@ -119,6 +119,39 @@ TEST(SmoothBase, OfAHubWithManyNeighboursIsAsSmoothAsOfOneWithFew) {
     }
 }
 
+/// A rod as CAD programs write it: each side two triangles of its whole length, the ends fans from one corner, and
+/// vertices on many edges that leave triangles without an area.
+Mesh rod(Index sides) {
+    Mesh mesh;
+    for (Index k = 0; k < sides; ++k)
+        for (const double z : {0.0, 10.0}) {
+            const double angle = 2 * pi * k / sides;
+            mesh.positions.push_back({std::cos(angle), std::sin(angle), z});
+        }
+    for (Index k = 0; k < sides; ++k) {
+        const Index a = 2 * k, b = 2 * ((k + 1) % sides);
+        const Index middle = static_cast<Index>(mesh.positions.size());
+        mesh.positions.push_back(0.3 * mesh.positions[a] + 0.7 * mesh.positions[b]);
+        mesh.faces.push_back({a, b, b + 1});
+        mesh.faces.push_back({a, b + 1, a + 1});
+        mesh.faces.push_back({a, middle, b});  // no area
+        if (k > 1) {
+            mesh.faces.push_back({0, middle, a}), mesh.faces.push_back({0, b, middle});
+            mesh.faces.push_back({1, a + 1, b + 1});
+        }
+    }
+    return mesh;
+}
+
+TEST(SmoothBase, OfNeedlesAndFacesWithoutAreaStaysWithTheMesh) {
+    for (const Index sides : {100, 400, 1000}) {
+        SCOPED_TRACE(sides);
+        const Mesh mesh = rod(sides);
+        const Result r = base(layer_of(mesh), 150);
+        EXPECT_LT(displacement(mesh.positions, *r.layer->positions).largest, 1);
+    }
+}
+
 TEST(SmoothBase, KeepsTheBaseAtLeastAndRefusesMoreThanAll) {
     const Layer layer = layer_of(shapes::scan(2000));
     EXPECT_EQ(*base(layer, 3).layer->positions, *base(layer, 100).layer->positions) << "the base has about 100";

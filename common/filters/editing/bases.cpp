@@ -74,6 +74,8 @@ Base base_through(const Mesh& mesh, const Pyramid& pyramid, Index kept, double t
     const Hierarchy& h = pyramid.hierarchy();
     SystemOptions how;
     how.bending = true;
+    // Squared twice over, the weights of thinner slivers would drown all others in rounding.
+    how.stiffness.least_area = 1e-2;
     how.fixed.assign(mesh.positions.size(), 0);
     for (Index p = 0; p < kept; ++p) how.fixed[h.order[p]] = 1;
     Base base{pyramid.synthesise(coarse_gains(h, kept)), 0};
