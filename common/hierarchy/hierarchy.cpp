@@ -80,9 +80,9 @@ Rings room_for_odd(const std::vector<Step>& steps, const HierarchyOptions& optio
 }
 
 /// Rings of the places 0..coarse-1 in order of the step's vertices.
-Rings even_rings(const Rings& rings, const Array<Index>& place, Index coarse) {
+Rings even_rings(const Rings& rings, const Array<Index>& place, Index coarse, bool flaps) {
     const Array<Index> rows = rows_between(place, 0, coarse);
-    Rings even = renumbered(rings, rows, place, rings.rows());
+    Rings even = renumbered(rings, rows, place, rings.rows(), flaps);
     even.vertices.resize(rows.size());
     for (std::size_t r = 0; r < rows.size(); ++r) even.vertices[r] = place[rows[r]];
     return even;
@@ -112,14 +112,14 @@ Hierarchy assemble(std::vector<Step> steps, const HierarchyOptions& options) {
             Step& step = steps[s];
             const Index fine = step.rings.rows(), even = fine - static_cast<Index>(step.parent.size());
             const Array<Index> odd = rows_between(place[s], even, fine);
-            if (options.flaps) find_flaps(step.rings, s > first ? &odd : nullptr);
             for (std::size_t i = 0; i < step.parent.size(); ++i)
                 h.parent[even + static_cast<Index>(i)] = place[s][step.parent[i]];
             renumber_into(h.odd, even - base, step.rings, odd, place[s], even);
             if (s > first) level.cuts.push_back(fine - base);
         }
         if (options.mean_edges) h.mean_edge.push_back(steps[first].mean_edge);
-        if (options.even_rings) h.even.push_back(even_rings(steps[first].rings, place[first], level.coarse));
+        if (options.even_rings)
+            h.even.push_back(even_rings(steps[first].rings, place[first], level.coarse, options.flaps));
         h.size.push_back(level.coarse);
         h.levels.push_back(std::move(level));
         for (int s = first; s < last; ++s) steps[s] = Step(), place[s] = Array<Index>();
@@ -152,7 +152,7 @@ Array<Index> sort_for_caches(Rings& rings, Positions& positions) {
     for (Index i = 0; i < n; ++i) place[order[i]] = i;
     parallel_for(n, [&](Index i) { moved[i] = positions[order[i]]; });
     positions = std::move(moved);
-    rings = renumbered(rings, order, place, n);
+    rings = renumbered(rings, order, place, n, false);
     return order;
 }
 

@@ -353,18 +353,40 @@ Array<Index> offsets_after(const Step& step, const Array<Index>& degree) {
     return offset;
 }
 
+/// Quadrics of even vertices, those of the vertices that went into them added.
+void sum_quadrics(const State& s, const Step& step, State& t) {
+    const Index n = s.rings.rows(), m = n - static_cast<Index>(step.parent.size());
+    t.quadric.resize(m);
+    t.error.resize(m);
+    parallel_for(n, [&](Index i) {
+        const Index to = step.code[i];
+        if (to < 0) return;
+        Quadric q = s.quadric[i];
+        for (Index j = 0; j < s.rings.size(i); ++j) {
+            const Index x = s.rings.begin(i)[j], code = step.code[x];
+            if (code < 0 && step.parent[~code] == i) q.add_moved(s.quadric[x], s.positions[x] - s.positions[i]);
+        }
+        t.quadric[to] = q;
+        t.error[to] = q.c;
+    });
+}
+
 /// The state after a step: even vertices only, renumbered in their order.
+/// @param s       its rings and positions stay; what else it has is gone as soon as it is not needed
 /// @param move    see move_vertices()
 /// @param degree  sizes of the rings after the step
-State next_state(const State& s, const Step& step, const Array<Index>& degree, const HierarchyOptions& options,
-                 bool move) {
+State next_state(State& s, const Step& step, const Array<Index>& degree, const HierarchyOptions& options, bool move) {
     const Index n = s.rings.rows(), m = n - static_cast<Index>(step.parent.size());
     const bool has_features = !s.rings.feature.empty();
     State t;
+    if (!options.memoryless) {
+        sum_quadrics(s, step, t);
+        s.quadric = Array<Quadric>();
+        s.error = Array<double>();
+    }
     t.rings.kind.resize(m);
     t.rings.offset = offsets_after(step, degree);
     t.positions.resize(m);
-    if (!options.memoryless) t.quadric.resize(m), t.error.resize(m);
     t.rings.neighbor.resize(t.rings.offset[m]);
     if (has_features) t.rings.feature.resize(t.rings.offset[m]);
     const auto ring = [&](Index i) { return ring_of(s.rings, i); };
@@ -375,19 +397,10 @@ State next_state(const State& s, const Step& step, const Array<Index>& degree, c
         t.rings.kind[to] = s.rings.kind[i];
         t.positions[to] = s.positions[i];
         Index at = t.rings.offset[to];
-        const Ring old = ring(i);
-        collapse::ring_after(i, old, ring, parent, [&](Index x, bool mark) {
+        collapse::ring_after(i, ring(i), ring, parent, [&](Index x, bool mark) {
             if (has_features) t.rings.feature[at] = mark;
             t.rings.neighbor[at++] = step.code[x];
         });
-        if (options.memoryless) return;
-        Quadric q = s.quadric[i];
-        for (Index j = 0; j < old.size; ++j) {
-            const Index x = old.vertex[j];
-            if (parent(x) == i) q.add_moved(s.quadric[x], s.positions[x] - s.positions[i]);
-        }
-        t.quadric[to] = q;
-        t.error[to] = q.c;
     });
     if (move)
         move_vertices(s.rings, s.positions, step, std::cos(radians(options.normal_limit_degrees)), t.rings,

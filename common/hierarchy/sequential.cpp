@@ -228,12 +228,12 @@ private:
         for (Index p = 0; p < left_; ++p) record(base, h_.order[p]);
         Array<Index> all(left_);
         std::iota(all.begin(), all.end(), 0);
-        h_.base = renumbered(base, all, place, n);
+        h_.base = renumbered(base, all, place, n, options_.flaps);
         rows_ = {};
 
         Array<Index> rows(removed_.size());  // recorded in order of removal, wanted in order of insertion
         for (std::size_t r = 0; r < rows.size(); ++r) rows[r] = static_cast<Index>(rows.size() - 1 - r);
-        h_.odd = renumbered(odd_, rows, place, n);
+        h_.odd = renumbered(odd_, rows, place, n, options_.flaps);
         h_.odd.first = left_;
         h_.size.shrink_to_fit();
         h_.levels.resize(h_.size.size() - 1);
@@ -251,7 +251,7 @@ private:
         for (Index r = 0; r < even.rows(); ++r)
             if (place[even.vertices[r]] < level.coarse) rows.push_back(r);
         const Array<Index> vertex = std::move(even.vertices);
-        even = renumbered(even, rows, place, level.fine);
+        even = renumbered(even, rows, place, level.fine, !even.flap.empty());
         for (const Index r : rows) even.vertices.push_back(place[vertex[r]]);
     }
 

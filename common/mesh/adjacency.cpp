@@ -209,36 +209,36 @@ Index next_on_boundary(const Rings& rings, Index from, Index at) {
     return first == from ? last : last == from ? first : none;
 }
 
-void find_flaps(Rings& rings, const Array<Index>* rows) {
+void find_flaps(Rings& rings) {
     rings.flap.resize(rings.neighbor.size());
-    const bool features = !rings.feature.empty();
-    parallel_for(rows ? static_cast<Index>(rows->size()) : rings.rows(), [&](Index k) {
-        const Index i = rows ? (*rows)[k] : k, d = rings.size(i);
-        const Index* const r = rings.begin(i);
-        Index* const flap = rings.flap.data() + rings.offset[i];
-        if (rings.kind[i] != RingKind::closed || features) {
-            const bool open = rings.kind[i] == RingKind::open;
-            for (Index j = 0; j < d; ++j) flap[j] = open ? r[j] : flap_of(rings, i, j);
-            for (Index j = 0; open && j < d; j += d - 1) flap[j] = next_on_boundary(rings, i, r[j]);
-            return;
+    parallel_for(rings.rows(), [&](Index i) { find_flaps(rings, i, rings.flap.data() + rings.offset[i]); });
+}
+
+void find_flaps(const Rings& rings, Index i, Index* flap) {
+    const Index d = rings.size(i);
+    const Index* const r = rings.begin(i);
+    if (rings.kind[i] != RingKind::closed || !rings.feature.empty()) {
+        const bool open = rings.kind[i] == RingKind::open;
+        for (Index j = 0; j < d; ++j) flap[j] = open ? r[j] : flap_of(rings, i, j);
+        for (Index j = 0; open && j < d; j += d - 1) flap[j] = next_on_boundary(rings, i, r[j]);
+        return;
+    }
+    // In the ring of neighbour j, i stands between j-1 and j+1, and beyond those are the flaps of both links: one
+    // search for two.
+    for (Index j = d % 2; j < d + d % 2; j += 2) {
+        const Index at_j = j < d ? j : 0, before = at_j > 0 ? at_j - 1 : d - 1, after = at_j + 1 < d ? at_j + 1 : 0;
+        const Index a = r[at_j], n = rings.size(a), at = find_in(rings, a, i);
+        if (at < 0 || rings.kind[a] != RingKind::closed) {
+            flap[before] = flap_of(rings, i, before);
+            flap[at_j] = flap_of(rings, i, at_j);
+            continue;
         }
-        // In the ring of neighbour j, i stands between j-1 and j+1, and beyond those are the flaps of both links: one
-        // search for two.
-        for (Index j = d % 2; j < d + d % 2; j += 2) {
-            const Index at_j = j < d ? j : 0, before = at_j > 0 ? at_j - 1 : d - 1, after = at_j + 1 < d ? at_j + 1 : 0;
-            const Index a = r[at_j], n = rings.size(a), at = find_in(rings, a, i);
-            if (at < 0 || rings.kind[a] != RingKind::closed) {
-                flap[before] = flap_of(rings, i, before);
-                flap[at_j] = flap_of(rings, i, at_j);
-                continue;
-            }
-            const Index* const around = rings.begin(a);
-            const auto entry = [&](Index k) { return around[k < 0 ? k + n : k < n ? k : k - n]; };
-            const bool along = entry(at + 1) == r[after];
-            flap[at_j] = entry(along ? at + 2 : at - 2);
-            flap[before] = entry(along ? at - 2 : at + 2);
-        }
-    });
+        const Index* const around = rings.begin(a);
+        const auto entry = [&](Index k) { return around[k < 0 ? k + n : k < n ? k : k - n]; };
+        const bool along = entry(at + 1) == r[after];
+        flap[at_j] = entry(along ? at + 2 : at - 2);
+        flap[before] = entry(along ? at - 2 : at + 2);
+    }
 }
 
 void mark_features_by_angle(Rings& rings, const Positions& positions, double degrees) {

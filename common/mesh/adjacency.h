@@ -31,8 +31,10 @@ Index next_on_boundary(const Rings& rings, Index from, Index at);
 /// Fills Rings::flap of rows that together hold every vertex (row i = vertex i): the vertex across each link edge
 /// of closed rows, and the next vertex of the boundary beyond both ends of open ones; none if the link edge lies on the
 /// boundary, is a feature, or touches an irregular vertex on both ends.
-/// @param rows  if given, only these get theirs; those of the others are not set
-void find_flaps(Rings& rings, const Array<Index>* rows = nullptr);
+void find_flaps(Rings& rings);
+
+/// The same for one row of such rings, into room for as many as it has entries.
+void find_flaps(const Rings& rings, Index row, Index* flap);
 
 /// Marks as features the edges whose faces' normals differ by more than `degrees` (Rings::feature). Boundary edges
 /// are not features. Both ends of an edge get the same mark.

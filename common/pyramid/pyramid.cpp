@@ -1,5 +1,6 @@
 #include "pyramid/pyramid.h"
 
+#include "base/free_memory.h"
 #include "base/parallel.h"
 #include "base/reduce.h"
 #include "mesh/adjacency.h"
@@ -35,6 +36,15 @@ Hierarchy hierarchy_of(const Layer& layer, const PyramidOptions& options, const 
     const Progress building = progress.part(0.05, 0.6);
     return build_hierarchy(std::move(rings), layer.mesh.positions, hierarchy_options(options),
                            [&](double f) { building.report(f, "Building the pyramid"); });
+}
+
+constexpr std::size_t much = 4 << 20;  // bytes: less is not worth the time to get it back
+
+/// to_places(..., field_of(positions)) without the field between.
+Field in_places(const Hierarchy& h, const Positions& positions) {
+    Field f = Field::unset(h.vertices(), 3);
+    parallel_for(f.rows(), [&](Index p) { std::copy_n(positions[h.order[p]].data(), 3, f.row(p)); });
+    return f;
 }
 
 template <class Values>
@@ -74,13 +84,14 @@ Pyramid::Pyramid(const Layer& layer, const PyramidOptions& options, const Progre
     progress.report(0.6, "Computing weights");
     scheme_ = make_scheme(hierarchy_, options.scheme);
     progress.report(0.8, "Computing details");
-    Field f = field_of(hierarchy_.positions);
     const std::vector<double> wavelength = wavelengths(hierarchy_, layer.mesh.faces, options.hierarchy.base_vertices);
     hierarchy_.positions = Positions();  // the layer has them
-    coefficients_ = scheme_->analyse(std::move(f), options.scheme.storage);
+    return_free_memory(much);            // the holes that the hierarchy left
+    coefficients_ = scheme_->analyse(in_places(hierarchy_, layer.mesh.positions), options.scheme.storage);
     levels_ = describe(hierarchy_, coefficients_, wavelength);
     bytes_ = sizeof(Pyramid) + multires::bytes(hierarchy_) + scheme_->bytes() + multires::bytes(coefficients_) +
              levels_.capacity() * sizeof(LevelInfo);
+    return_free_memory(much);  // those that details left
     progress.report(1, "Pyramid built");
 }
 

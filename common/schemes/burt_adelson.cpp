@@ -32,10 +32,13 @@ public:
     }
 
     Field synthesise(const Coefficients& coefficients, const Synthesis& how) const override {
+        Field scratch;  // room for the largest level from the start: smaller ones leave holes
         return synthesise_levels(
             hierarchy(), coefficients, how, [&](std::size_t k, const std::vector<Subband>* d, double gain, Field& f) {
+                scratch.width = f.width;
+                scratch.values.reserve(static_cast<std::size_t>(hierarchy().even[how.to].rows()) * f.width);
                 with_details(d, gain, coarse_ && has_frames(f),
-                             [&](const auto& odd, const auto& even) { synthesise_level(k, odd, even, f); });
+                             [&](const auto& odd, const auto& even) { synthesise_level(k, odd, even, f, scratch); });
             });
     }
 
@@ -50,10 +53,11 @@ private:
         std::vector<Subband> bands;
         bands.reserve(2);
         bands.push_back(values_at(odd_rings, hierarchy().levels[k].odd, f, frames));
-        bands.push_back(values_at(even_rings, {0, even_rings.rows()}, f, frames));
+        const RowRange all{0, even_rings.rows()};
+        bands.push_back(presmooth_ > 0 ? with_values(even_rings, all, presmooth(k, f), frames)
+                                       : values_at(even_rings, all, f, frames));
         Subband &odd = bands[0], &even = bands[1];
         const auto even_vertex = [&](Index r) { return even_rings.vertex(r); };
-        if (presmooth_ > 0) presmooth(k, f);
         predict_odd(hierarchy(), k, odd_, f, [&](Index r, const double* predicted) {
             subtract(odd, r, predicted, f);
             if (coarse_) copy_row(predicted, f.width, f.row(odd_rings.vertex(r)));
@@ -63,7 +67,8 @@ private:
         return bands;
     }
 
-    void presmooth(std::size_t k, Field& f) const {
+    /// Moves the even vertices; gives where they were.
+    Field presmooth(std::size_t k, Field& f) const {
         const Rings& rings = hierarchy().even[k];
         const auto vertex = [&](Index r) { return rings.vertex(r); };
         Field smooth = Field::unset(rings.rows(), f.width);
@@ -71,12 +76,16 @@ private:
             const double* const c = f.row(vertex(r));
             for (int i = 0; i < f.width; ++i) smooth.row(r)[i] = c[i] + presmooth_ * (relaxed[i] - c[i]);
         });
-        parallel_for(rings.rows(), [&](Index r) { copy_row(smooth.row(r), f.width, f.row(vertex(r))); });
+        parallel_for(rings.rows(),
+                     [&](Index r) { std::swap_ranges(smooth.row(r), smooth.row(r) + f.width, f.row(vertex(r))); });
+        return smooth;
     }
 
     /// The inverse of analyse_level.
+    /// @param values  to work in
     template <class Value>
-    void synthesise_level(std::size_t k, const Details<Value>& odd, const Details<Value>& even, Field& f) const {
+    void synthesise_level(std::size_t k, const Details<Value>& odd, const Details<Value>& even, Field& f,
+                          Field& values) const {
         const Level& level = hierarchy().levels[k];
         const Rings &odd_rings = hierarchy().odd, &even_rings = hierarchy().even[k];
         const int width = f.width;
@@ -88,7 +97,7 @@ private:
             else
                 odd.add(r, predicted, f, odd_row(r));
         });
-        Field values = Field::unset(even_rings.rows(), width);  // rows need the old values of all
+        values.values.resize(static_cast<std::size_t>(even_rings.rows()) * width);  // rows need the old ones of all
         const auto vertex = [&](Index r) { return even_rings.vertex(r); };
         for_relaxed_rows(even_[k], 0, even_rings.rows(), f, vertex,
                          [&](Index r, const double* relaxed) { even.add(r, relaxed, f, values.row(r)); });

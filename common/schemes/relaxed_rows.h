@@ -115,13 +115,19 @@ void predict_odd(const Hierarchy& h, std::size_t k, const Stencil& odd, const Fi
         for_relaxed_rows(odd, level.set(s).begin, level.set(s).end, g, parent, take);
 }
 
-/// A subband whose rows are still the values themselves: those of `f` at its places.
-inline Subband values_at(const Rings& rings, RowRange range, const Field& f, bool frames) {
+/// A subband whose rows are still the values themselves.
+inline Subband with_values(const Rings& rings, RowRange range, Field values, bool frames) {
     Subband band;
     band.rings = &rings;
     band.range = range;
-    band.values = Field::unset(band.rows(), f.width);
+    band.values = std::move(values);
     if (frames) band.local.resize(band.rows());
+    return band;
+}
+
+/// Those of `f` at its places.
+inline Subband values_at(const Rings& rings, RowRange range, const Field& f, bool frames) {
+    Subband band = with_values(rings, range, Field::unset(range.size(), f.width), frames);
     parallel_for(band.rows(), [&](Index r) { copy_row(f.row(band.place(r)), f.width, band.values.row(r)); });
     return band;
 }

@@ -4,6 +4,7 @@
 #include "host/kept_pyramid.h"
 #include "host/parameters.h"
 
+#include "base/free_memory.h"
 #include "filters/original.h"
 
 #include <array>
@@ -14,10 +15,6 @@
 #include <new>
 #include <sstream>
 #include <utility>
-
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
 
 namespace multires::host {
 namespace {
@@ -172,18 +169,10 @@ RichParameterList parameters(const Filter& filter, const MeshDocument& document)
 
 namespace {
 
-/// glibc keeps the blocks that are freed; what a filter used for a while goes back to the system, if it is much: little
-/// is there for the next filter, which would take longer to get it back than to use it.
+/// What a filter used for a while goes back to the system, if it is much: little is there for the next filter, which
+/// would take longer to get it back than to use it.
 struct MemoryGoesBack {
-    ~MemoryGoesBack() {
-#if defined(__GLIBC__) && __GLIBC_PREREQ(2, 33)
-        constexpr std::size_t much = 64 << 20;
-        if (mallinfo2().fordblks < much) return;
-#endif
-#ifdef __GLIBC__
-        malloc_trim(0);
-#endif
-    }
+    ~MemoryGoesBack() { return_free_memory(64 << 20); }
 };
 
 }  // namespace

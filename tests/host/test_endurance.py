@@ -80,6 +80,30 @@ def test_what_a_deleted_layer_kept_is_released_at_the_next_call():
     assert after - before < (kept - before) / 2, (before, kept, after)
 
 
+def test_peak_memory_of_a_pyramid(tmp_path):
+    """Of building it and checking its reconstruction, beyond the mesh: tests/bench/speed.py measures a million vertices.
+    Arrays that steps of the hierarchy worked in, and holes that they left, once stayed until the check."""
+    script = f"""
+        import sys, pymeshlab
+        pymeshlab.load_plugin({str(next(p for p in PLUGINS if "pyramid" in p.name))!r})
+
+        def status(key):
+            return next(int(l.split()[1]) * 1024 for l in open("/proc/self/status") if l.startswith(key))
+
+        ms = pymeshlab.MeshSet()
+        ms.load_new_mesh({str(tmp_path / "scan_400000.ply")!r})
+        open("/proc/self/clear_refs", "w").write("5")  # the peak starts anew
+        before = status("VmRSS")
+        ms.apply_filter("compute_multires_pyramid", storage=sys.argv[1])
+        print((status("VmHWM") - before) / ms.current_mesh().vertex_number())
+    """
+    subprocess.run([BUILD / "meshes/make_meshes", tmp_path, "400000"], check=True, stdout=subprocess.DEVNULL)
+    for storage, most in (("double", 465), ("float", 355)):
+        command = [sys.executable, "-c", textwrap.dedent(script), storage]
+        bytes_per_vertex = float(subprocess.run(command, check=True, capture_output=True, text=True).stdout.split()[-1])
+        assert bytes_per_vertex < most, storage
+
+
 def test_too_little_address_space_is_an_error_that_changes_nothing():
     command = [sys.executable, ROOT / "tests/bench/load.py", "--vertices", "200000", "--build", BUILD]
     run = subprocess.run(command, capture_output=True, text=True)

@@ -104,7 +104,10 @@ double wavelength_of(const DerivedMesh& mesh, const Positions& input) {
 
 Result compute_pyramid(const Layer& layer, const ComputePyramidOptions& options, Session& session) {
     Result result;
+    require_usable(layer.mesh);
+    InputCounts counts = count_input(layer.mesh, 0);  // first: it needs as much memory as a part of the pyramid
     const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
+    counts.non_manifold_vertices = pyramid->hierarchy().irregular;
     const std::vector<LevelInfo>& levels = pyramid->levels();
     std::vector<double> level, vertices, wavelength, rms_detail;
     result.report.say("level     vertices  wavelength    RMS detail");
@@ -125,7 +128,7 @@ Result compute_pyramid(const Layer& layer, const ComputePyramidOptions& options,
     result.report.add("wavelength", wavelength, "mesh units");
     result.report.add("rms_detail", rms_detail, "mesh units");
     result.report.add("reconstruction_error", pyramid->reconstruction_error(layer.mesh.positions), "mesh units");
-    report_counts(count_input(layer.mesh, pyramid->hierarchy().irregular), result.report);
+    report_counts(counts, result.report);
     return result;
 }
 
