@@ -1,5 +1,6 @@
 #include "filters/calibration.h"
 
+#include "measure/measure.h"
 #include "mesh/adjacency.h"
 #include "mesh/validation.h"
 
@@ -23,6 +24,11 @@ std::vector<std::uint8_t> held_vertices(const Layer& layer, const FeatureOptions
 }
 
 }  // namespace
+
+BandMethod default_method(const Mesh& mesh) {
+    constexpr double most_spread = 1.6;
+    return edge_spread(mesh.faces, mesh.positions) > most_spread ? BandMethod::spline : BandMethod::pyramid;
+}
 
 std::vector<Limit> limits_of(const Layer& layer, const Band& band, double gain, const char* coarsest,
                              const PyramidOptions& options, Session& session, Report& report) {

@@ -16,6 +16,11 @@ enum class BandMethod {
     spline,   ///< calibrated low passes: a limit is the wavelength of which half belongs to either side
 };
 
+/// The spline where edges differ so much that no level of a pyramid has a wavelength: edge_spread() above 1.6. The
+/// scans at hand have 1.01 to 1.44, tessellations of CAD programs 1.7 to 11: there low passes by the pyramid moved
+/// vertices by .1 to .6 of the diagonal, by the spline by .01 to .05 (docs/bands.md).
+BandMethod default_method(const Mesh& mesh);
+
 struct Calibration {
     BandMethod method = BandMethod::pyramid;
     LowPassOrder order = LowPassOrder::second;  ///< for spline

@@ -100,6 +100,16 @@ double mean_edge_length(const Faces& faces, const Positions& positions) {
     return faces.empty() ? 0 : sum / (3 * static_cast<double>(faces.size()));
 }
 
+double edge_spread(const Faces& faces, const Positions& positions) {
+    const double mean = mean_edge_length(faces, positions);
+    if (!(mean > 0)) return 1;
+    const auto sum = chunked_fold<double>(faces.size(), [&](double& squares, std::size_t f) {
+        const Vec3 &a = positions[faces[f][0]], &b = positions[faces[f][1]], &c = positions[faces[f][2]];
+        squares += ((b - a) / mean).squaredNorm() + ((c - b) / mean).squaredNorm() + ((a - c) / mean).squaredNorm();
+    });
+    return sum / (3 * static_cast<double>(faces.size()));
+}
+
 Surface surface(const Faces& faces, const Positions& positions, const Vec3& apex) {
     const auto sums = chunked_fold<SurfaceSums>(faces.size(), [&](SurfaceSums& part, std::size_t f) {
         const Triangle t(faces[f], positions);

@@ -22,6 +22,9 @@ Box bounding_box(const Positions& positions);
 /// Mean length over the faces' sides (an edge with two faces counts twice, a boundary edge once); 0 without faces.
 double mean_edge_length(const Faces& faces, const Positions& positions);
 
+/// Mean square over square of the mean of the same lengths, at least 1: how much the edges differ. 1 without faces.
+double edge_spread(const Faces& faces, const Positions& positions);
+
 /// Integrals over a surface.
 struct Surface {
     double area = 0;               ///< square mesh units

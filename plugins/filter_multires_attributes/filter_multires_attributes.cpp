@@ -65,6 +65,7 @@ AttributeBandRow band_defaults(const Layer* layer) {
     if (layer) {
         o.band = default_band(*layer, Unit::wavelength);
         o.cutoff = default_cutoff(*layer, Unit::wavelength);
+        o.calibration.method = default_method(layer->mesh);
     }
     o.region.selected = has_selection(layer);
     return o;

@@ -17,6 +17,7 @@ struct LowPassRow : LowPassOptions {
 LowPassRow low_pass_defaults(const Layer* layer) {
     LowPassRow o;
     o.cutoff = layer ? default_cutoff(*layer, o.unit) : 1;
+    if (layer) o.calibration.method = default_method(layer->mesh);
     o.region.selected = has_selection(layer);
     return o;
 }
@@ -49,6 +50,7 @@ BandRow band_defaults(const Layer* layer) {
     BandRow o;
     o.band.coarsest = 1;
     if (layer) o.band = default_band(*layer, Unit::wavelength);
+    if (layer) o.calibration.method = default_method(layer->mesh);
     o.region.selected = has_selection(layer);
     return o;
 }
@@ -87,6 +89,7 @@ EqualizerRow equalizer_defaults(const Layer* layer) {
     EqualizerRow o;
     o.region.selected = has_selection(layer);
     if (layer) o.limit = equalizer_limits(*layer, o.pyramid);
+    if (layer) o.calibration.method = default_method(layer->mesh);
     return o;
 }
 

@@ -100,10 +100,13 @@ inline void bind_softness(Parameters& p, double& softness) {
 
 inline void bind_calibration(Parameters& p, Calibration& o) {
     const char* group = "Band";
-    p.add("method", Choice(o.method, {"pyramid", "spline"}), "Method",
-          "Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere stays "
-          "a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.")
-        .in(group);
+    p.add(
+         "method", Choice(o.method, {"pyramid", "spline"}), "Method",
+         "Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere stays "
+         "a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply. By default the pyramid, "
+         "which previews at once, but the spline where edges differ much in length, as CAD programs make them.")
+        .in(group)
+        .derived();
     p.add("order", Choice(o.order, {"1", "2", "4", "gaussian"}), "Order",
           "Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), "
           "1 / (1 + s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).")

@@ -1,3 +1,4 @@
+#include "base/angles.h"
 #include "filter_fixtures.h"
 #include "filters/attributes/attributes_band.h"
 #include "filters/shape/band_filters.h"
@@ -187,6 +188,35 @@ TEST(CalibratedBands, AttributesHaveTheTransmissionOfTheFormulaAndConstantsStay)
         constant.attributes[0].values.assign(after.size(), 1.0 / 3);
         EXPECT_EQ(filter_attribute_bands(constant, o, session).attributes[0].values, constant.attributes[0].values);
     }
+}
+
+/// A bar as CAD programs tessellate it: many short edges around its ends, few long ones along it.
+Mesh bar() {
+    constexpr Index sides = 60;
+    Mesh mesh;
+    for (const double z : {0.0, 0.1, 10.0, 10.1})
+        for (Index k = 0; k < sides; ++k) {
+            const double angle = 2 * pi * k / sides;
+            mesh.positions.push_back({std::cos(angle), std::sin(angle), z});
+        }
+    for (Index ring = 0; ring < 3; ++ring)
+        for (Index k = 0; k < sides; ++k) {
+            const Index a = ring * sides + k, b = ring * sides + (k + 1) % sides;
+            mesh.faces.push_back({a, b, b + sides}), mesh.faces.push_back({a, b + sides, a + sides});
+        }
+    return mesh;
+}
+
+TEST(CalibratedBands, AreTheDefaultWhereEdgesDifferMuch) {
+    for (const auto& [name, mesh] : every_class())
+        EXPECT_GE(edge_spread(mesh.faces, mesh.positions), 1 - 1e-12) << name;
+    const Mesh scan = shapes::scan(3000), tessellated = bar();
+    EXPECT_EQ(default_method(scan), BandMethod::pyramid);
+    EXPECT_EQ(default_method(shapes::irregular_sphere(3000, {0.3, 0.3, 4})), BandMethod::pyramid);
+    EXPECT_EQ(default_method(tessellated), BandMethod::spline);
+    Mesh large = tessellated;
+    for (Vec3& p : large.positions) p = 1e6 * p + Vec3(1, 2, 3);
+    EXPECT_NEAR(edge_spread(large.faces, large.positions), edge_spread(bar().faces, bar().positions), 1e-9);
 }
 
 TEST(CalibratedBands, MeasuredTransmissionIsReported) {

@@ -1121,7 +1121,7 @@ def select_features(
 @also_flat(Pyramid)
 def low_pass(
     ms: MeshSet, *, unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
-    cutoff: float | None = None, softness: float = 0.0, method: Literal["pyramid", "spline"] = "pyramid",
+    cutoff: float | None = None, softness: float = 0.0, method: Literal["pyramid", "spline"] | None = None,
     order: Order = "2", measure: bool = False, selected: bool | None = None, quality_mask: bool = False,
     relative_to: RelativeTo = "current shape", pyramid: Pyramid | None = None,
 ) -> LowPassReport:
@@ -1141,7 +1141,9 @@ def low_pass(
         softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
             10.
         method: Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere
-            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.
+            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply. By default the
+            pyramid, which previews at once, but the spline where edges differ much in length, as CAD programs make
+            them. None: derived from the mesh.
         order: Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 +
             s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
         measure: Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4
@@ -1169,7 +1171,7 @@ def low_pass(
 def stop_band(
     ms: MeshSet, *, unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength",
     finest: float | None = None, coarsest: float | None = None, softness: float = 0.0,
-    method: Literal["pyramid", "spline"] = "pyramid", order: Order = "2", measure: bool = False,
+    method: Literal["pyramid", "spline"] | None = None, order: Order = "2", measure: bool = False,
     selected: bool | None = None, quality_mask: bool = False, relative_to: RelativeTo = "current shape",
     pyramid: Pyramid | None = None,
 ) -> StopBandReport:
@@ -1190,7 +1192,9 @@ def stop_band(
         softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
             10.
         method: Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere
-            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.
+            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply. By default the
+            pyramid, which previews at once, but the spline where edges differ much in length, as CAD programs make
+            them. None: derived from the mesh.
         order: Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 +
             s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
         measure: Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4
@@ -1220,7 +1224,7 @@ def stop_band(
 def enhance(
     ms: MeshSet, *, gain: float = 2.0,
     unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength", finest: float | None = None,
-    coarsest: float | None = None, softness: float = 0.0, method: Literal["pyramid", "spline"] = "pyramid",
+    coarsest: float | None = None, softness: float = 0.0, method: Literal["pyramid", "spline"] | None = None,
     order: Order = "2", measure: bool = False, selected: bool | None = None, quality_mask: bool = False,
     relative_to: RelativeTo = "current shape", pyramid: Pyramid | None = None,
 ) -> EnhanceReport:
@@ -1242,7 +1246,9 @@ def enhance(
         softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
             10.
         method: Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere
-            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.
+            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply. By default the
+            pyramid, which previews at once, but the spline where edges differ much in length, as CAD programs make
+            them. None: derived from the mesh.
         order: Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 +
             s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
         measure: Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4
@@ -1272,7 +1278,7 @@ def enhance(
 def equalizer(
     ms: MeshSet, *, gain_1: float = 1.0, gain_2: float = 1.0, gain_3: float = 1.0, gain_4: float = 1.0,
     gain_5: float = 1.0, gain_6: float = 1.0, gain_7: float = 1.0, gain_8: float = 1.0, softness: float = 0.5,
-    method: Literal["pyramid", "spline"] = "pyramid", order: Order = "2", measure: bool = False,
+    method: Literal["pyramid", "spline"] | None = None, order: Order = "2", measure: bool = False,
     selected: bool | None = None, quality_mask: bool = False, relative_to: RelativeTo = "current shape",
     pyramid: Pyramid | None = None,
 ) -> EqualizerReport:
@@ -1289,7 +1295,9 @@ def equalizer(
         softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
             10.
         method: Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere
-            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.
+            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply. By default the
+            pyramid, which previews at once, but the spline where edges differ much in length, as CAD programs make
+            them. None: derived from the mesh.
         order: Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 +
             s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
         measure: Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4
@@ -1760,7 +1768,7 @@ def filter_attributes(
     ms: MeshSet, *, color: bool | None = None, quality: bool | None = None, linear_light: bool = False,
     mode: Mode = "low pass", gain: float = 2.0, cutoff: float | None = None,
     unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength", finest: float | None = None,
-    coarsest: float | None = None, softness: float = 0.0, method: Literal["pyramid", "spline"] = "pyramid",
+    coarsest: float | None = None, softness: float = 0.0, method: Literal["pyramid", "spline"] | None = None,
     order: Order = "2", measure: bool = False, selected: bool | None = None, quality_mask: bool = False,
     pyramid: Pyramid | None = None,
 ) -> FilterAttributesReport:
@@ -1792,7 +1800,9 @@ def filter_attributes(
         softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
             10.
         method: Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere
-            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.
+            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply. By default the
+            pyramid, which previews at once, but the spline where edges differ much in length, as CAD programs make
+            them. None: derived from the mesh.
         order: Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 +
             s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
         measure: Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4
@@ -1818,7 +1828,7 @@ def filter_attributes(
 def filter_custom_attributes(
     ms: MeshSet, *, custom_names: str = "", mode: Mode = "low pass", gain: float = 2.0, cutoff: float | None = None,
     unit: Literal["wavelength", "wavelength percent", "level", "vertices"] = "wavelength", finest: float | None = None,
-    coarsest: float | None = None, softness: float = 0.0, method: Literal["pyramid", "spline"] = "pyramid",
+    coarsest: float | None = None, softness: float = 0.0, method: Literal["pyramid", "spline"] | None = None,
     order: Order = "2", measure: bool = False, selected: bool | None = None, quality_mask: bool = False,
     pyramid: Pyramid | None = None,
 ) -> FilterCustomAttributesReport:
@@ -1848,7 +1858,9 @@ def filter_custom_attributes(
         softness: Pyramid only: width of the band's edges in octaves of wavelength; 0 is a sharp edge. A number, 0 to
             10.
         method: Spline: calibrated, a limit is the wavelength of which exactly half belongs to either side; a sphere
-            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply.
+            stays a sphere. Pyramid: limits are approximate; softness and the pyramid's options apply. By default the
+            pyramid, which previews at once, but the spline where edges differ much in length, as CAD programs make
+            them. None: derived from the mesh.
         order: Spline only: how steeply a limit separates. With s = (limit / wave)^2, waves keep 1 / (1 + s), 1 / (1 +
             s^2) (ISO 16610-22), 1 / (1 + s^4) or exp(-ln 2 s) (ISO 16610-21).
         measure: Spline only: filter test waves on this very mesh and tell how much is left of waves of 0.7, 1 and 1.4
