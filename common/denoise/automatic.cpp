@@ -201,12 +201,20 @@ Positions denoise_automatically(const Faces& faces, const Positions& positions, 
     // What keeps creases follows the normals.
     const double height = tilted(1 - sharp_share(choice.weights), stats.deviation / edge),
                  side = tilted(1.5, stats.deviation / edge);
-    const bool around = within.noisy || within.likely;
-    stats.rms_before = std::sqrt(choice.before + (around ? within.before * within.before : 0));
-    stats.rms_after = std::sqrt(height * height * choice.after + side * side * error_within(within, shares));
     Positions after = maker.blend(local_weights(choice, classes, assumed.deviation),
                                   [&](double f) { tick(0.65 + 0.35 * f, "Denoising"); });
     keep_within_noise(relaxed, assumed.deviation, after);
+    Sideways along_axis;
+    if (found.noise.axis && !within.noisy) {
+        AxisNoise axis = *found.noise.axis;
+        axis.deviation *= options.strength;
+        along_axis = move_along(axis, options.strength * found.noise.along_normals, choice.after, near, maker.normal(),
+                                relaxed, after);
+    }
+    const bool around = within.noisy || within.likely;
+    stats.rms_before = std::sqrt(choice.before + (around ? within.before * within.before : 0) + along_axis.before);
+    stats.rms_after =
+        std::sqrt(height * height * choice.after + side * side * error_within(within, shares) + along_axis.after);
     if (found.rounded) keep_within_cells(positions, found.voxels ? stats.step : stats.step / 2, after);
     stats.edge = mean_edge_length(faces, after);
     return after;

@@ -9,9 +9,10 @@
 namespace multires {
 namespace {
 
-constexpr int local_steps = 6;        ///< averaging of the energies, and so of the directions
-constexpr int reweighted = 8;         ///< steps of the fit
-constexpr double explains = 0.1;      ///< share by which the deviations from the fit must fall, and 3 / root of #V
+constexpr int local_steps = 6;    ///< averaging of the energies, and so of the directions
+constexpr int reweighted = 8;     ///< steps of the fit
+constexpr double explains = 0.1;  ///< share by which the deviations from the fit must fall, and what chance adds
+constexpr double by_chance = 3, by_chance_if_few = 6.5;  ///< by the root of #V; the latter is all that few tell of
 constexpr double stands_out = 2;      ///< of the deviation along the axis, to that in the next direction
 constexpr double faced = 0.1;         ///< mean squared cosine of the normals to the axis, at least
 constexpr double least_share = 0.05;  ///< of the mean energy: what is less counts no more than this in the fit
@@ -92,6 +93,19 @@ Fit fitted(const std::vector<Row>& row, const std::vector<double>& energy, doubl
     return fit;
 }
 
+/// The share of moves within the surface after which its second differences are least.
+double evening_share(const Neighbours& near, const Array<Vec3>& normal, const Positions& p, const Positions& moves) {
+    const Positions places = detail_of(near, detail_of(near, p)), moved = detail_of(near, detail_of(near, moves));
+    double product = 0, square = 0;
+    for (Index v = 0; v < near.rows(); ++v) {
+        if (near.rim[v]) continue;
+        const Vec3 within = moved[v] - normal[v].dot(moved[v]) * normal[v];
+        product -= within.dot(places[v]);
+        square += within.squaredNorm();
+    }
+    return square > 0 ? std::clamp(product / square, 0.0, 1.0) : 0;
+}
+
 }  // namespace
 
 std::optional<AxisNoise> axis_noise(const Neighbours& near, const Array<Vec3>& normal, const std::vector<Index>& inner,
@@ -99,7 +113,8 @@ std::optional<AxisNoise> axis_noise(const Neighbours& near, const Array<Vec3>& n
     const double mean = energy.mean();
     if (!(mean > 0)) return std::nullopt;
     const std::vector<Row> row = rows(near, normal, inner, bends);
-    const double least_explained = explains + 3 / std::sqrt(static_cast<double>(inner.size()));
+    const double root = std::sqrt(static_cast<double>(inner.size()));
+    const double least_explained = std::max(explains + by_chance / root, by_chance_if_few / root);
     const Fit same = fitted(row, energy.field, mean, true), own = fitted(row, energy.field, mean, false);
     if (!own.found.allFinite() || !(own.deviation < (1 - least_explained) * same.deviation)) return std::nullopt;
     const Row& c = own.found;
@@ -115,6 +130,27 @@ std::optional<AxisNoise> axis_noise(const Neighbours& near, const Array<Vec3>& n
     // Where it bends, noise shows as bends, too.
     const double rest = std::max(0.1, 1 - std::max(0.0, c[columns - 1]));
     return AxisNoise{axis, std::sqrt(values[2] / rest), std::sqrt(std::max(0.0, values[1]) / rest)};
+}
+
+Sideways move_along(const AxisNoise& axis, double own, double error, const Neighbours& near, const Array<Vec3>& normal,
+                    const Positions& from, Positions& to) {
+    const double more = std::max(0.0, axis.deviation * axis.deviation - own * own);
+    const double count = static_cast<double>(to.size());
+    Positions moves(to.size(), Vec3::Zero());
+    double before = 0, gain = 0;
+    for (std::size_t v = 0; v < to.size(); ++v) {
+        const Vec3& n = normal[v];
+        const double facing = n.dot(axis.axis), variance = own * own + more * facing * facing;
+        if (!(variance > 0)) continue;
+        const Vec3 covariance = more * facing * (axis.axis - facing * n);  // of both parts
+        const double share = 1 / (variance + error), seen = std::max(0.0, variance - error);
+        moves[v] = n.dot(to[v] - from[v]) * share * covariance;
+        before += more * (1 - facing * facing) / count;
+        gain += covariance.squaredNorm() * seen * share * (2 / variance - share) / count;
+    }
+    const double share = evening_share(near, normal, from, moves);
+    for (std::size_t v = 0; v < to.size(); ++v) to[v] += share * moves[v];
+    return {share * before, share * (before - gain)};
 }
 
 }  // namespace multires

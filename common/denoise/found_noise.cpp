@@ -33,6 +33,24 @@ bool stand_out(const Faces& faces, const Positions& before, const Positions& aft
     return !moved.empty() && lower_quantile(moved, 0.5) > 1.3 * lower_quantile(rest, 0.8);
 }
 
+/// Puts back what moved much farther than most did: shape, such as the jags of cliffs in a grid, may stand out, too,
+/// but the sizes of impulses have an end.
+/// @returns  vertices that are still moved
+Index put_back_farthest(const Positions& before, Positions& after) {
+    constexpr double most = 0.8, farthest = 3.25;
+    std::vector<double> length;
+    for (std::size_t i = 0; i < before.size(); ++i)
+        if (after[i] != before[i]) length.push_back((after[i] - before[i]).norm());
+    if (length.empty()) return 0;
+    const double limit = farthest * lower_quantile(length, most);
+    Index moved = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if ((after[i] - before[i]).norm() > limit) after[i] = before[i];
+        moved += after[i] != before[i];
+    }
+    return moved;
+}
+
 /// Noise that differs from place to place is white in most places, or it would not be found.
 void set_varying(std::vector<double> deviation, FoundNoise& m) {
     m.deviation = std::move(deviation);
@@ -64,7 +82,9 @@ Positions without_impulses(const Faces& faces, const Positions& positions, const
     if (spikes == 0) return positions;
     std::vector<std::uint8_t> moves(positions.size());
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = start[i] != positions[i];
-    return guided_steps(faces, start, at, face_graph(faces, at), spike_steps, moves);
+    start = guided_steps(faces, start, at, face_graph(faces, at), spike_steps, moves);
+    spikes = put_back_farthest(positions, start);
+    return start;
 }
 
 FoundNoise find_noise(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,

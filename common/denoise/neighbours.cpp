@@ -129,6 +129,16 @@ template Array<Columns<1>> smoothed_fields<1>(const Neighbours&, Array<Columns<1
 template Array<Columns<2>> smoothed_fields<2>(const Neighbours&, Array<Columns<2>>, int);
 template Array<Columns<3>> smoothed_fields<3>(const Neighbours&, Array<Columns<3>>, int);
 
+Positions detail_of(const Neighbours& near, const Positions& p) {
+    Positions out(p.size());
+    parallel_for(near.rows(), [&](Index v) {
+        Vec3 sum = Vec3::Zero();
+        for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) sum += p[v] - p[near.vertex[k]];
+        out[v] = near.size(v) > 0 ? Vec3(sum / near.size(v)) : Vec3(Vec3::Zero());
+    });
+    return out;
+}
+
 void average(const Neighbours& near, std::vector<double>& values, int width, int steps) {
     if (width == 1) return averaged<1>(near, values, steps);
     if (width == 2) return averaged<2>(near, values, steps);

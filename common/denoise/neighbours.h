@@ -36,6 +36,9 @@ using Columns = Eigen::Matrix<double, 3, count>;
 template <int count>
 Array<Columns<count>> smoothed_fields(const Neighbours& near, Array<Columns<count>> fields, int steps);
 
+/// Detail of vectors: each less the mean of its neighbours.
+Positions detail_of(const Neighbours& near, const Positions& p);
+
 /// Replaces each value by its mean with the neighbours' values, `steps` times.
 /// @param values  #V by `width`, interleaved; width is 1, 2, 3 or 6
 void average(const Neighbours& near, std::vector<double>& values, int width, int steps);

@@ -199,17 +199,6 @@ void leave_shape(const Faces& faces, const Positions& positions, const Neighbour
     if (noise.axis) noise.axis->deviation *= factor, noise.axis->across *= factor;
 }
 
-/// Detail of the places: like AlongNormals::detail with equal weights, for vectors.
-Positions detail_of(const Neighbours& near, const Positions& p) {
-    Positions out(p.size());
-    parallel_for(near.rows(), [&](Index v) {
-        Vec3 sum = Vec3::Zero();
-        for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) sum += p[v] - p[near.vertex[k]];
-        out[v] = near.size(v) > 0 ? Vec3(sum / near.size(v)) : Vec3(Vec3::Zero());
-    });
-    return out;
-}
-
 /// Energies of the parts of details within the surface, beside those of noise.
 Energies energies_within(const Positions& detail, const Positions& noise, const Neighbours& near,
                          const Array<Vec3>& normal) {

@@ -191,7 +191,39 @@ TEST(AutomaticDenoise, FindsNoiseAlongAnAxis) {
                 if (!axis || deviation < 0.1) continue;
                 const Positions after = result.positions.value_or(mesh.positions);
                 EXPECT_LE(error_of(shape.mesh, after).angle, 0.5 * error_of(shape.mesh, mesh.positions).angle);
+                // What crosses the surface is seen along the normals, and goes with it.
+                const double left = rms_distance(shape.mesh.positions, after);
+                EXPECT_LE(left, 0.8 * rms_distance(shape.mesh.positions, mesh.positions));
+                if (shape.name == std::string("sphere") || shape.name == std::string("scan")) {
+                    EXPECT_NEAR(number(result.report, "estimated_rms_after"), left, 0.15 * left);
+                }
             }
+}
+
+TEST(AutomaticDenoise, HardlyFindsAnAxisByChance) {
+    int found = 0;
+    for (const Mesh& truth : {shapes::scan(200), shapes::irregular_sphere(200), shapes::irregular_sphere(350)})
+        for (const Model model : {Model::along_normals, Model::all_directions, Model::impulsive})
+            for (std::uint64_t seed = 1; seed <= 15; ++seed)
+                found += value<bool>(run(layer_of(noisy(truth, model, 0.2, seed))).report, "noise_along_axis");
+    EXPECT_LE(found, 8);  // of 135
+}
+
+/// A grid of cliffs that go across it: their jags stand out as impulses do.
+Mesh cliffs(Index side) {
+    Mesh mesh = shapes::plane(side, {0, 0, 1});
+    for (Vec3& p : mesh.positions) p.z() = 0.08 * std::floor(3.3 * p.x() + 1.05 * p.y());
+    return mesh;
+}
+
+TEST(AutomaticDenoise, LeavesTheJagsOfCliffsAlone) {
+    const Mesh truth = cliffs(60);
+    for (const double deviation : {0.05, 0.1, 0.2}) {
+        SCOPED_TRACE(deviation);
+        const Mesh mesh = noisy(truth, Model::impulsive, deviation);
+        const Positions after = run(layer_of(mesh)).positions.value_or(mesh.positions);
+        EXPECT_LE(rms_distance(truth.positions, after), rms_distance(truth.positions, mesh.positions));
+    }
 }
 
 TEST(AutomaticDenoise, TakesRoundedCoordinatesBackWithinTheirCells) {
