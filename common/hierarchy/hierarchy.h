@@ -42,7 +42,7 @@ struct HierarchyOptions {
     /// Weight of the edge-length term beside the quadric: cost = (Q_v + Q_u)(p_u) + weight * area_v * |p_v - p_u|^2.
     /// 0: quadric only (Roy); larger values keep vertices of a level evenly spaced, which sharpens bands. With any, and
     /// independent sets that are not memoryless, vertices of the boundary stay while its edges are longer than 1.5
-    /// times those from there into the surface.
+    /// times those from there into the surface, and its corners (mesh/corner.h) that point outwards stay.
     double length_weight = 0.1;
     Split split = Split::quadric;
     int seed = 0;             ///< other than 0: costs vary at random by up to half, for another hierarchy

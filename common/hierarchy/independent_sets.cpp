@@ -7,6 +7,7 @@
 #include "hierarchy/collapse.h"
 #include "hierarchy/fresh_costs.h"
 #include "hierarchy/placement.h"
+#include "mesh/corner.h"
 
 #include <algorithm>
 #include <array>
@@ -89,6 +90,24 @@ bool boundary_runs_ahead(const State& s, Index v, const Ring& ring) {
     return count > 0 && (length(0) + length(ring.size - 1)) / 2 > 1.5 * inner / count;
 }
 
+/// True at a corner of the boundary that points outwards: without it the outline would be another one. There are few of
+/// them at any level, for on both sides the boundary must go straight on for two edges.
+bool is_corner(const State& s, Index v, const Ring& ring) {
+    if (ring.closed()) return false;
+    const Vec3& at = s.positions[v];
+    Vec3 to[2], step[2], inside = Vec3::Zero();
+    for (int end = 0; end < 2; ++end) {
+        const Index beside = ring.vertex[end == 0 ? 0 : ring.size - 1];
+        const Ring on = ring_of(s.rings, beside);
+        if (on.kind != RingKind::open) return false;
+        const Index first = on.vertex[0], next = first == v ? on.vertex[on.size - 1] : first;
+        to[end] = s.positions[beside] - at, step[end] = s.positions[next] - s.positions[beside];
+    }
+    for (Index j = 1; j + 1 < ring.size; ++j) inside += s.positions[ring.vertex[j]] - at;
+    return inside.dot(to[0] + to[1]) >= 0 &&
+           corner_share(turn(-to[0], to[1]), std::max(turn(to[0], step[0]), turn(to[1], step[1]))) > 0.5;
+}
+
 Candidates rank_vertices(const State& s, const HierarchyOptions& options) {
     const Index n = s.rings.rows();
     Candidates c;
@@ -101,7 +120,7 @@ Candidates rank_vertices(const State& s, const HierarchyOptions& options) {
         const Ring ring = ring_of(s.rings, v);
         const Directions directions(ring);
         if (directions.none()) return;
-        if (levels_are_even && boundary_runs_ahead(s, v, ring)) return;
+        if (levels_are_even && (boundary_runs_ahead(s, v, ring) || is_corner(s, v, ring))) return;
         double least = std::numeric_limits<double>::infinity();
         if (fresh && collapse::FreshCosts::takes(ring) && directions.all()) {
             const collapse::FreshCosts costs(v, ring, s.positions, options.length_weight);

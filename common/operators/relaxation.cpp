@@ -2,6 +2,7 @@
 
 #include "base/angles.h"
 #include "base/parallel.h"
+#include "mesh/corner.h"
 #include "operators/kernels.h"
 
 #include <algorithm>
@@ -26,6 +27,7 @@ void interpolate(const Star& star, const Positions& positions, Index a, Index b,
 
 /// One side of a vertex on a curve.
 struct Side {
+    Vec3 to = Vec3::Zero();     ///< to the neighbour
     double near = 0, step = 0;  ///< lengths of the edges to the neighbour, and from there to the next vertex
     double even = 0;            ///< 1; less if `step` is less than half of `near`, or at corners; 0: no next vertex
 
@@ -33,33 +35,57 @@ struct Side {
     double weight(const Side& other) const { return even > 0 ? even * (2 - other.even) / step : 0; }
 };
 
-/// Minimises the sum of the squared second-order differences along a curve over the vertex and its neighbours, with
-/// weights for which quadratic functions of the length along the curve are reproduced. Where it turns by more than 60
-/// degrees at a neighbour what is beyond counts less, and not at all from 90 degrees on; without it linear
-/// interpolation between the neighbours is left.
-/// @returns false, and no weights, if an edge has no length
-bool along_curve(const Star& star, const Positions& positions, Index a, Index b, double* weight, double* flap_weight) {
-    const Index end[2] = {a, b};
-    Side side[2];
-    for (int s = 0; s < 2; ++s) {
-        const Index to = star.neighbor[end[s]], next = star.flap[end[s]];
-        side[s].near = length(star, positions, end[s]);
-        if (!(side[s].near > 0)) return false;
-        if (next == to || next == star.vertex || next == star.neighbor[end[1 - s]]) continue;
-        const Vec3 step = positions[next] - positions[to];
-        const double along = step.dot(positions[to] - positions[star.vertex]) / side[s].near;
-        side[s].step = step.norm();
-        if (along > 0) side[s].even = std::min({1.0, 2 * side[s].step / side[s].near, 2 * along / side[s].step});
-    }
-    double sum = 1 / (side[0].near * side[1].near);
+/// The rows of a curve: what of the second-order difference at the vertex itself counts is `own`.
+/// @returns  the sum of the absolute weights
+double curve_row(const Side (&side)[2], double own, double (&weight)[2], double (&flap_weight)[2]) {
+    double sum = own / (side[0].near * side[1].near), norm = 0;
     for (int s = 0; s < 2; ++s) {
         const double near = side[s].near, both = near + side[1 - s].near, far = near + side[s].step;
         const double g = side[s].weight(side[1 - s]);
-        weight[end[s]] = 1 / (near * both) + g / (2 * near);
-        flap_weight[end[s]] = -g / (2 * far);
+        weight[s] = own / (near * both) + g / (2 * near);
+        flap_weight[s] = -g / (2 * far);
         sum += g * side[s].step / (2 * near * far);
     }
-    for (const Index e : end) weight[e] /= sum, flap_weight[e] /= sum;
+    for (int s = 0; s < 2; ++s) {
+        weight[s] /= sum, flap_weight[s] /= sum;
+        norm += std::abs(weight[s]) + std::abs(flap_weight[s]);
+    }
+    return norm;
+}
+
+/// Minimises the sum of the squared second-order differences along a curve over the vertex and its neighbours, with
+/// weights for which quadratic functions of the length along the curve are reproduced. At a corner (mesh/corner.h) or
+/// where it turns by more than 60 degrees, a difference counts less, and not at all from 90 degrees on. Without those
+/// at the neighbours linear interpolation is left; without that at the vertex itself both sides are carried on, unless
+/// the row would be too large.
+/// @returns false, and no weights, if an edge has no length
+bool along_curve(const Star& star, const Positions& positions, Index a, Index b, double largest_norm, double* weight,
+                 double* flap_weight) {
+    const Index end[2] = {a, b};
+    Side side[2];
+    for (int s = 0; s < 2; ++s) {
+        side[s].to = positions[star.neighbor[end[s]]] - positions[star.vertex];
+        side[s].near = side[s].to.norm();
+        if (!(side[s].near > 0)) return false;
+    }
+    const double own_turn = turn(-side[0].to, side[1].to);
+    double most_even = 0, turn_beside = 0;
+    for (int s = 0; s < 2; ++s) {
+        const Index to = star.neighbor[end[s]], next = star.flap[end[s]];
+        if (next == to || next == star.vertex || next == star.neighbor[end[1 - s]]) continue;
+        const Vec3 on = positions[next] - positions[to];
+        const double turn_there = turn(side[s].to, on);
+        turn_beside = std::max(turn_beside, turn_there);
+        side[s].step = on.norm();
+        if (!(side[s].step > 0 && turn_there < 1)) continue;
+        side[s].even = std::min({1.0, 2 * side[s].step / side[s].near, 2 - 2 * turn_there}) *
+                       (1 - corner_share(turn_there, own_turn));
+        most_even = std::max(most_even, side[s].even);
+    }
+    const double own = 1 - most_even * corner_share(own_turn, turn_beside);
+    double near[2], far[2];
+    if (!(curve_row(side, own, near, far) <= largest_norm)) curve_row(side, 1, near, far);
+    for (int s = 0; s < 2; ++s) weight[end[s]] = near[s], flap_weight[end[s]] = far[s];
     return true;
 }
 
@@ -154,7 +180,8 @@ bool RowRelaxation::row(const Star& star, const Positions& positions, double* we
     std::fill_n(weight, star.size, 0.0);
     if (curve.rule == Rule::keep) return false;
     const bool open = star.kind == RingKind::open;
-    if (!(open && flap_weight != nullptr && along_curve(star, positions, curve.a, curve.b, weight, flap_weight)))
+    if (!(open && flap_weight != nullptr &&
+          along_curve(star, positions, curve.a, curve.b, options_.largest_norm, weight, flap_weight)))
         interpolate(star, positions, curve.a, curve.b, weight);
     if (open && options_.close_holes && !has_feature(star)) close_hole(star, positions, weight, flap_weight);
     return true;

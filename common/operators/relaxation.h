@@ -21,7 +21,8 @@
 ///   R f_v = f_v. Fixed are vertices without a ring (irregular, isolated) and corners (below).
 /// - Boundary: a vertex with an open ring is relaxed along the boundary curve only. Operators with flaps minimise
 ///   the squared second-order differences at the vertex and at its two boundary neighbours, for which they know the
-///   next vertices: quadratic functions of the length are reproduced, but across corners, so that round rims are.
+///   next vertices: quadratic functions of the length are reproduced, so that round rims are. Not across corners
+///   (mesh/corner.h), to which both sides are carried on: linear functions of the plane are reproduced.
 ///   The others interpolate linearly between the two neighbours with weights inverse to the edge lengths. The
 ///   vertex is fixed if a feature edge meets the boundary there.
 /// - Holes: where the surface's angle at a boundary vertex is more than 180 degrees, the triangle of the vertex and its

@@ -117,6 +117,35 @@ TEST(BandFilters, RoundRimsStayAsTheyAre) {
     }
 }
 
+/// Nothing of a flat patch is detail, whatever the cutoff: neither its sides nor its corners.
+TEST(BandFilters, FlatPatchesKeepTheirOutline) {
+    for (const double jitter : {0.0, 0.3})
+        for (const double shear : {0.0, 0.5}) {  // corners of 90, and of 63 and 117 degrees
+            shapes::Irregular irregular;
+            irregular.jitter = jitter;
+            Mesh patch = shapes::plane(40, irregular);
+            std::vector<Index> corners;
+            for (Index v = 0; v < static_cast<Index>(patch.positions.size()); ++v) {
+                Vec3& p = patch.positions[v];
+                if ((p.x() == 0 || p.x() == 1) && (p.y() == 0 || p.y() == 1)) corners.push_back(v);
+                p.x() += shear * p.y();
+            }
+            ASSERT_EQ(corners.size(), 4u);
+            const Layer layer = layer_of(patch);
+            const double edge = mean_edge_length(patch.faces, patch.positions);
+            for (const char* scheme : {"Guskov", "Roy"})
+                for (const double cutoff : {6.0, 25.0, 100.0}) {
+                    SCOPED_TRACE(testing::Message() << scheme << " " << jitter << " " << shear << " " << cutoff);
+                    LowPassOptions low;
+                    low.pyramid.scheme.row = scheme_named(scheme);
+                    low.cutoff = cutoff * edge;
+                    const Positions after = *run(low_pass, layer, low).positions;
+                    for (const Index v : corners) EXPECT_LT((after[v] - patch.positions[v]).norm(), 1e-6 * edge);
+                    EXPECT_NEAR(surface(patch.faces, after).area, 1, 1e-6);
+                }
+        }
+}
+
 TEST(BandFilters, CracksWhoseSidesNearlyTouchThrowNoVertexAway) {
     Mesh mesh = shapes::scan(6000, {});
     const double edge = mean_edge_length(mesh.faces, mesh.positions);

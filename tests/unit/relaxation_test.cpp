@@ -218,6 +218,45 @@ TEST(Relaxation, OperatorsWithFlapsReproduceQuadraticsAlongTheBoundary) {
     for (const double w : crowded) EXPECT_LT(std::abs(w), 5);
 }
 
+/// What the row of a boundary vertex at 0 predicts from two neighbours and the vertices beyond them.
+Vec3 predicted_on_boundary(const Vec3& a, const Vec3& b, const Vec3& beyond_a, const Vec3& beyond_b) {
+    const Positions p{{0, 0, 0}, a, a + b, b, beyond_a, beyond_b};
+    Rings rings;
+    rings.kind = {RingKind::open};
+    rings.offset = {0, 3};
+    rings.neighbor = {1, 2, 3};
+    rings.flap = {4, 2, 5};
+    rings.vertices = {0};
+    return relaxed(rings, ring_weights(rings, p, with(Operator::second_difference_flaps)), p)[0];
+}
+
+TEST(Relaxation, OperatorsWithFlapsCarryBothSidesOnToACornerOfTheBoundary) {
+    const Vec3 x(1, 0, 0);
+    const auto turned = [](double angle) { return Vec3(std::cos(angle), std::sin(angle), 0); };
+    for (const double angle : {60.0, 90.0, 120.0}) {  // between the sides
+        const Vec3 y = turned(radians(angle));
+        EXPECT_LT(predicted_on_boundary(x, y, 2 * x, 2 * y).norm(), 1e-14) << angle;
+        EXPECT_LT(predicted_on_boundary(x, 0.7 * y, 1.5 * x, 2 * y).norm(), 1e-14) << angle;
+        // The neighbours of a corner stay on their side.
+        EXPECT_LT(predicted_on_boundary(x, -x, x + y, -2 * x).norm(), 1e-14) << angle;
+        // Bounded where there is next to nothing to carry on.
+        EXPECT_LT(predicted_on_boundary(x, y, (1 + 1e-6) * x, (1 + 1e-6) * y).norm(), 1);
+        EXPECT_LT(predicted_on_boundary(x, y, x, y).norm(), 1);
+    }
+    // A vertex that sticks out of a straight line is none: it goes back to the line.
+    for (const double height : {0.2, 0.5, 1.0}) {
+        const Vec3 up(0, height, 0);
+        EXPECT_LT(predicted_on_boundary(x - up, -x - up, 2 * x - up, -2 * x - up).y(), -0.6 * height) << height;
+    }
+    // Nor is one on a circle, however few it has.
+    for (const int n : {5, 6, 8, 20}) {
+        const double step = 2 * pi / n;
+        const auto at = [&](int k) { return Vec3(turned(k * step) - turned(0)); };
+        const Vec3 p = predicted_on_boundary(at(1), at(-1), at(2), at(-2));
+        EXPECT_LT(p.norm(), 0.55 * (1 - std::cos(step))) << n;
+    }
+}
+
 TEST(Relaxation, RelaxedKeepsTheValuesOfFixedRows) {
     const Mesh mesh = shapes::unreferenced_vertices();
     const Rings rings = rings_with_flaps(mesh);
