@@ -169,6 +169,36 @@ TEST(BandFilters, CracksWhoseSidesNearlyTouchThrowNoVertexAway) {
     EXPECT_LT(largest_distance(*run(low_pass, layer, low).positions, mesh.positions), 10 * edge);
 }
 
+/// A cutoff means the same on a body whether or not a coarser or finer one lies beside it.
+TEST(BandFilters, WavelengthsAreThoseOfEachBody) {
+    shapes::Irregular other;
+    other.seed = 2;
+    const Mesh fine = shapes::scan(4000, {});
+    Mesh coarse = shapes::scan(4000, other);
+    constexpr double size = 8;
+    for (Vec3& p : coarse.positions) p *= size;
+    const Mesh both = shapes::join(fine, coarse, Vec3(30, 0, 0));
+    const auto moved = [](const Mesh& mesh, std::size_t first, std::size_t count, double cutoff) {
+        LowPassOptions low;
+        low.cutoff = cutoff;
+        const Positions after = *run(low_pass, layer_of(mesh), low).positions;
+        double squares = 0;
+        for (std::size_t v = first; v < first + count; ++v) squares += (after[v] - mesh.positions[v]).squaredNorm();
+        return std::sqrt(squares / static_cast<double>(count));
+    };
+    const std::size_t n = fine.positions.size(), m = coarse.positions.size();
+    const double edge = mean_edge_length(fine.faces, fine.positions);
+    for (const double edges : {6.0, 12.0}) {  // what the pyramid of one alone reaches
+        SCOPED_TRACE(edges);
+        const double cutoff = edges * edge;
+        const double small = moved(fine, 0, n, cutoff), large = moved(coarse, 0, m, size * cutoff);
+        EXPECT_NEAR(moved(both, 0, n, cutoff), small, 0.3 * small);
+        EXPECT_NEAR(moved(both, n, m, size * cutoff), large, 0.3 * large);
+        // What the coarse one cannot carry leaves it alone.
+        EXPECT_LT(moved(both, n, m, 1.5 * edge), 0.01 * large);
+    }
+}
+
 TEST(BandFilters, EqualizerIsASumOfBands) {
     const Layer layer = layer_of(sphere().mesh);
     EqualizerOptions options;

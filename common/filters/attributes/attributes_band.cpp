@@ -69,17 +69,17 @@ Result filter_attribute_bands(const Layer& layer, const AttributeBandOptions& op
     }
     const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
     const std::vector<double> weights = region_weights(layer, options.region);
-    const std::vector<double> gains = band_gains(*pyramid, band, box_diagonal(layer), gain);
-    const bool changes = std::any_of(gains.begin(), gains.end(), [](double g) { return g != 1; });
+    const Bodies bodies(*pyramid, layer);
+    const Gains gains = band_gains(bodies, band, box_diagonal(layer), gain);
     for (std::size_t i = 0; i < all.size(); ++i) {
         session.progress.report(0.9 + 0.1 * static_cast<double>(i) / static_cast<double>(all.size()),
                                 "Filtering attributes");
         const Channels& c = all[i];
-        const auto leave = [](const Coefficients&) {};
-        const Field after = changes ? through_pyramid(*pyramid, c.field, gains, leave) : c.field;
+        const auto scaled = [&](const Coefficients& details) { return bodies.synthesise(details, gains); };
+        const Field after = all_one(gains) ? c.field : through_pyramid(*pyramid, c.field, scaled);
         result.attributes.push_back(changed_attribute(layer, c, after, weights, result.report));
     }
-    result.report.add("gains", gains);
+    result.report.add("gains", gains[0]);
     return result;
 }
 

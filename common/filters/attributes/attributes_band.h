@@ -3,7 +3,7 @@
 #include "filters/calibration.h"
 #include "filters/channels.h"
 #include "filters/region.h"
-#include "pyramid/band.h"
+#include "pyramid/bodies.h"
 
 namespace multires {
 
@@ -36,20 +36,18 @@ struct AttributeBandOptions {
 /// Cost: building the pyramid, unless it is kept; then O(V) for each channel.
 Result filter_attribute_bands(const Layer& layer, const AttributeBandOptions& options, Session& session);
 
-/// Calls `change` with the coefficients of a field and puts the field together again. Channels are shifted by their
-/// values at the first vertex meanwhile, so that a constant comes back exactly.
+/// Calls `change` with the coefficients of a field, which puts the field together again, in order of places. Channels
+/// are shifted by their values at the first vertex meanwhile, so that a constant comes back exactly.
 /// @param field  #V rows in order of the input
 template <class Change>
-Field through_pyramid(const Pyramid& pyramid, const Field& field, const std::vector<double>& gains,
-                      const Change& change) {
+Field through_pyramid(const Pyramid& pyramid, const Field& field, const Change& change) {
     const auto shifted = [&](Field f, double sign) {
         for (Index r = 0; r < f.rows(); ++r)
             for (int c = 0; c < f.width; ++c) f.row(r)[c] += sign * field.row(0)[c];
         return f;
     };
     Coefficients coefficients = pyramid.scheme().analyse(to_places(pyramid.hierarchy(), shifted(field, -1)));
-    change(coefficients);
-    return shifted(to_input(pyramid.hierarchy(), pyramid.scheme().synthesise(coefficients, with_gain(gains))), 1);
+    return shifted(to_input(pyramid.hierarchy(), change(coefficients)), 1);
 }
 
 }  // namespace multires

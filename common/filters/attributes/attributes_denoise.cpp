@@ -259,10 +259,11 @@ Field denoised(const Channels& channels, const Pyramid& pyramid, const NoiseGain
         changes = changes || factor > 0;
         return shrink_details(c, groups, gains, part, t, factor, shrink_rule(o));
     };
-    Field after = through_pyramid(pyramid, channels.field, {}, [&](Coefficients& c) {
+    Field after = through_pyramid(pyramid, channels.field, [&](Coefficients& c) {
         const Part part = surface.part(channels.field, 0, colors, rounding);
         report_findings(channels.label, part.deviation(), denoise_part(c, part), report);
         if (width == 4) denoise_part(c, surface.part(channels.field, 3, 1, rounding));
+        return pyramid.scheme().synthesise(c);
     });
     return changes ? after : channels.field;
 }

@@ -7,8 +7,7 @@
 #include "filters/placement.h"
 #include "measure/distance.h"
 #include "mesh/validation.h"
-#include "pyramid/band.h"
-#include "pyramid/with_gains.h"
+#include "pyramid/bodies.h"
 #include "solvers/system.h"
 
 #include <Eigen/Dense>
@@ -137,10 +136,11 @@ void limit(const Layer& layer, const TransferDetailOptions& options, Positions& 
     const auto pyramid = pyramid_of(layer, options.pyramid, session, report);
     Field field = field_of(detail);
     field.has_positions = false;
+    const Bodies bodies(*pyramid, layer);
     const auto smooth = [&](double wavelength) {
         Band band;
         band.coarsest = wavelength;
-        return positions_of(with_gains(*pyramid, field, band_gains(*pyramid, band, box_diagonal(layer), 0)));
+        return positions_of(bodies.filter(field, band_gains(bodies, band, box_diagonal(layer), 0)));
     };
     const Positions longer = options.coarsest > 0 ? smooth(options.coarsest) : Positions(detail.size(), Vec3::Zero());
     if (options.finest > 0) detail = smooth(options.finest);

@@ -6,6 +6,7 @@
 #include "measure/measure.h"
 #include "mesh/adjacency.h"
 #include "mesh/validation.h"
+#include "pyramid/bodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,7 +58,8 @@ Layer filtered(const Layer& layer, const AdaptiveOptions& o, Session& session) {
     Report ignored;
     Layer out = layer;
     const auto pyramid = pyramid_of(layer, o.band_pyramid, session, ignored);
-    out.mesh.positions = pyramid->synthesise(band_gains(*pyramid, o.band, box_diagonal(layer), o.band_gain));
+    const Bodies bodies(*pyramid, layer);
+    out.mesh.positions = bodies.synthesise(band_gains(bodies, o.band, box_diagonal(layer), o.band_gain));
     return out;
 }
 

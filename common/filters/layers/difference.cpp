@@ -5,8 +5,7 @@
 #include "measure/signed_distance.h"
 #include "measure/triangles.h"
 #include "mesh/validation.h"
-#include "pyramid/band.h"
-#include "pyramid/with_gains.h"
+#include "pyramid/bodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,12 +48,13 @@ std::vector<double> low_passed(const std::vector<double>& values, const Layer& l
     const auto pyramid = pyramid_of(layer, options.pyramid, session, report);
     Band band;
     band.coarsest = options.wavelength;
-    const std::vector<double> gains = band_gains(*pyramid, band, box_diagonal(layer), 0);
-    report.add("gains", gains);
+    const Bodies bodies(*pyramid, layer);
+    const Gains gains = band_gains(bodies, band, box_diagonal(layer), 0);
+    report.add("gains", gains[0]);
     Field field = Field::unset(static_cast<Index>(values.size()), 1);
     field.has_positions = false;
     std::copy(values.begin(), values.end(), field.values.begin());
-    const Field smooth = with_gains(*pyramid, field, gains);
+    const Field smooth = bodies.filter(field, gains);
     return {smooth.values.begin(), smooth.values.end()};
 }
 

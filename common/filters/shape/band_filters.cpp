@@ -5,6 +5,7 @@
 #include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
 #include "mesh/validation.h"
+#include "pyramid/bodies.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,19 +53,19 @@ Result filter_calibrated(const Layer& layer, const Options& options, Session& se
 }
 
 /// The steps shared by all band filters: start, pyramid, gains, synthesis, region, report.
-template <class Options, class Gains>
-Result filter_bands(const Layer& layer, const Options& options, Session& session, const Gains& gains_of) {
+template <class Options, class GainsOf>
+Result filter_bands(const Layer& layer, const Options& options, Session& session, const GainsOf& gains_of) {
     Result result;
     const std::vector<double> weights = region_weights(layer, options.region);
     const Start start(layer, options.relative_to, session, result.report);
     const auto pyramid = pyramid_of(start.layer(), options.pyramid, session, result.report);
-    const std::vector<double> gains = gains_of(start.layer(), *pyramid);
+    const Bodies bodies(*pyramid, start.layer());
+    const Gains gains = bodies.gains([&](const auto& levels) { return gains_of(start.layer(), levels); });
     session.progress.report(0.9, "Putting the levels together");
-    const bool unchanged = std::all_of(gains.begin(), gains.end(), [](double g) { return g == 1; });
-    Positions after = unchanged ? start.layer().mesh.positions : pyramid->synthesise(gains);
+    Positions after = all_one(gains) ? start.layer().mesh.positions : bodies.synthesise(gains);
     blend(layer.mesh.positions, weights, after);
     session.progress.report(0.97, "Measuring the change");
-    result.report.add("gains", gains);
+    result.report.add("gains", gains[0]);
     report_change(layer, after, result.report);
     result.positions = std::move(after);
     return result;
@@ -86,8 +87,8 @@ Result low_pass(const Layer& layer, const LowPassOptions& options, Session& sess
         return filter_calibrated(layer, options, session, [&](const Layer& start, Report& report) {
             return limits_of(start, band, 0, "cutoff", options.pyramid, session, report);
         });
-    return filter_bands(layer, options, session, [&](const Layer& start, const Pyramid& pyramid) {
-        return band_gains(pyramid, band, box_diagonal(start), 0);
+    return filter_bands(layer, options, session, [&](const Layer& start, const std::vector<LevelInfo>& levels) {
+        return band_gains(levels, band, box_diagonal(start), 0);
     });
 }
 
@@ -97,8 +98,8 @@ Result scale_band(const Layer& layer, const BandOptions& options, Session& sessi
         return filter_calibrated(layer, options, session, [&](const Layer& start, Report& report) {
             return limits_of(start, options.band, options.gain, "coarsest", options.pyramid, session, report);
         });
-    return filter_bands(layer, options, session, [&](const Layer& start, const Pyramid& pyramid) {
-        return band_gains(pyramid, options.band, box_diagonal(start), options.gain);
+    return filter_bands(layer, options, session, [&](const Layer& start, const std::vector<LevelInfo>& levels) {
+        return band_gains(levels, options.band, box_diagonal(start), options.gain);
     });
 }
 
@@ -125,16 +126,16 @@ Result equalizer(const Layer& layer, const EqualizerOptions& options, Session& s
             }
             return limits;
         });
-    return filter_bands(layer, options, session, [&](const Layer& start, const Pyramid& pyramid) {
+    return filter_bands(layer, options, session, [&](const Layer& start, const std::vector<LevelInfo>& levels) {
         const auto limit = equalizer_limits(start, options.pyramid);
-        std::vector<double> gains(pyramid.levels().size() - 1, 1);
+        std::vector<double> gains(levels.size() - 1, 1);
         for (int i = 0; i < equalizer_bands; ++i) {
             if (options.gain[i] == 1) continue;
             Band band;
             band.softness = options.softness;
             band.finest = i == 0 ? 0 : limit[i];
             band.coarsest = i == equalizer_bands - 1 ? 1e300 : limit[i + 1];
-            const std::vector<double> share = band_share(pyramid, band, 0);
+            const std::vector<double> share = band_share(levels, band, 0);
             for (std::size_t k = 0; k < gains.size(); ++k) gains[k] += share[k] * (options.gain[i] - 1);
         }
         return gains;
@@ -144,9 +145,10 @@ Result equalizer(const Layer& layer, const EqualizerOptions& options, Session& s
 Result detail_quality(const Layer& layer, const DetailOptions& options, Session& session) {
     Result result;
     const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
-    const std::vector<double> gains = band_gains(*pyramid, options.band, box_diagonal(layer), 0);
+    const Bodies bodies(*pyramid, layer);
+    const Gains gains = band_gains(bodies, options.band, box_diagonal(layer), 0);
     session.progress.report(0.9, "Measuring the details");
-    const Positions without = pyramid->synthesise(gains);
+    const Positions without = bodies.synthesise(gains);
     const Array<Vec3> normal =
         options.signed_normal ? vertex_normals(layer.mesh.faces, layer.mesh.positions) : Array<Vec3>();
     std::vector<double> detail(without.size());
@@ -155,7 +157,7 @@ Result detail_quality(const Layer& layer, const DetailOptions& options, Session&
         detail[i] = options.signed_normal ? normal[i].dot(d) : d.norm();
     }
     const auto [least, most] = std::minmax_element(detail.begin(), detail.end());
-    result.report.add("gains", gains);
+    result.report.add("gains", gains[0]);
     result.report.add("least_detail", *least, "mesh units");
     result.report.add("largest_detail", *most, "mesh units");
     result.report.add("rms_detail", rms(detail), "mesh units");
