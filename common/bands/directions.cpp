@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace multires {
 namespace {
@@ -64,10 +65,22 @@ bool mark_turned(const Faces& faces, const Array<Vec3>& upright, const Positions
 }  // namespace
 
 Array<Vec3> directions(const Faces& faces, const Positions& positions) {
+    constexpr double cancelled = 0.5;  // share of the area; the corner of a cube has 0.58
     Array<Vec3> sum(positions.size(), Vec3::Zero());
+    Array<double> area(positions.size(), 0);
     for (const Face& f : faces) {
         const Vec3 n = area_vector(f, positions);
-        for (const Index v : f) sum[v] += sum[v].dot(n) < 0 ? Vec3(-n) : n;
+        const double a = n.norm();
+        for (const Index v : f) sum[v] += n, area[v] += a;
+    }
+    std::vector<std::uint8_t> again(sum.size(), 0);
+    for (std::size_t v = 0; v < sum.size(); ++v)
+        if (!(sum[v].norm() > cancelled * area[v])) again[v] = 1, sum[v].setZero();
+    for (const Face& f : faces) {
+        if (!again[f[0]] && !again[f[1]] && !again[f[2]]) continue;
+        const Vec3 n = area_vector(f, positions);
+        for (const Index v : f)
+            if (again[v]) sum[v] += sum[v].dot(n) < 0 ? Vec3(-n) : n;
     }
     for (Vec3& n : sum) {
         const double length = n.norm();

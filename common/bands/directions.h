@@ -5,8 +5,9 @@
 
 namespace multires {
 
-/// Unit normals of the vertices up to their sign, whatever the orientation of the faces: area vectors of the faces of
-/// each vertex, turned to agree with those before them. Zero for vertices without area.
+/// Unit normals of the vertices up to their sign: sums of the area vectors of each vertex' faces. Where orientations
+/// contradict each other, so that these cancel, area vectors are turned to agree with those before them. Zero for
+/// vertices without area.
 /// @returns  #V by 3
 Array<Vec3> directions(const Faces& faces, const Positions& positions);
 

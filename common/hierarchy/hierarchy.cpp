@@ -1,8 +1,8 @@
 #include "hierarchy/hierarchy.h"
 
-#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "hierarchy/independent_sets.h"
+#include "hierarchy/parts.h"
 #include "hierarchy/renumber.h"
 #include "hierarchy/sequential.h"
 #include "hierarchy/simplify.h"
@@ -216,10 +216,7 @@ Simplified mesh_of_rest(const Mesh& mesh, const Array<Index>& became, const Norm
 
 /// See Hierarchy::beside.
 Index vertices_beside(const Rings& rings) {
-    DisjointSets parts(rings.rows());
-    for (Index v = 0; v < rings.rows(); ++v)
-        for (Index e = rings.offset[v]; e < rings.offset[v + 1]; ++e)
-            if (rings.neighbor[e] > v) parts.join(v, rings.neighbor[e]);
+    DisjointSets parts = parts_of(rings);
     Array<Index> size(rings.rows(), 0);  // of the part whose root a vertex is
     for (Index v = 0; v < rings.rows(); ++v) ++size[parts.find(v).root];
     Index sum = 0, largest = 0;

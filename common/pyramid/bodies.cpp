@@ -1,8 +1,8 @@
 #include "pyramid/bodies.h"
 
-#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/reduce.h"
+#include "hierarchy/parts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +16,7 @@ constexpr std::size_t most_levels = 64;
 
 class Parts {
 public:
-    explicit Parts(const Hierarchy& h) : h_(h), sets_(h.base.rows()), size_(h.base.rows(), 0) {
-        for (Index i = 0; i < h.base.rows(); ++i)
-            for (Index e = h.base.offset[i]; e < h.base.offset[i + 1]; ++e) sets_.join(i, h.base.neighbor[e]);
-    }
+    explicit Parts(const Hierarchy& h) : h_(h), sets_(parts_of(h.base)), size_(h.base.rows(), 0) {}
 
     bool one() {
         Index found = -1;

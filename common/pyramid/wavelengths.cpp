@@ -1,7 +1,7 @@
 #include "pyramid/wavelengths.h"
 
-#include "base/disjoint_sets.h"
 #include "base/reduce.h"
+#include "hierarchy/parts.h"
 #include "measure/measure.h"
 #include "mesh/adjacency.h"
 
@@ -14,10 +14,7 @@ namespace {
 /// The parts that the base is in.
 class Parts {
 public:
-    explicit Parts(const Rings& base) : base_(base), sets_(base.rows()) {
-        for (Index i = 0; i < base.rows(); ++i)
-            for (Index e = base.offset[i]; e < base.offset[i + 1]; ++e) sets_.join(i, base.neighbor[e]);
-    }
+    explicit Parts(const Rings& base) : base_(base), sets_(parts_of(base)) {}
 
     /// Mean length of the edges in the parts that vertices of the last level went to.
     double mean_edge(const Hierarchy& h) {

@@ -1,5 +1,6 @@
 #include "bands/slide.h"
 
+#include "bands/directions.h"
 #include "bands/spline.h"
 #include "base/angles.h"
 #include "fixtures.h"
@@ -99,6 +100,28 @@ TEST(Slide, FingersThatACutoffTakesAwayDriftLessAndDoNotCrease) {
     const Drift d = drift(mesh.faces, mesh.positions, after);
     EXPECT_LT(d.tangential_rms, 0.13 * d.normal_rms);  // 0.17 without slide_back()
     EXPECT_LE(sharp_edges(mesh.faces, after), 50);     // 58 without, 67 if only folds are avoided
+}
+
+// Perpendicular faces are not turned against each other by rounding.
+TEST(Directions, AreThoseOfTheOrientationUnlessThatContradictsItself) {
+    const Mesh block = shapes::block(4);
+    const Array<Vec3> normal = vertex_normals(block.faces, block.positions);
+    Array<Vec3> area(block.positions.size(), Vec3::Zero());
+    for (const Face& f : block.faces)
+        for (const Index v : f) area[v] += area_vector(f, block.positions);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix();
+    Positions turned = block.positions;
+    for (Vec3& p : turned) p = turn * p;
+    const Array<Vec3> here = directions(block.faces, block.positions), there = directions(block.faces, turned);
+    for (std::size_t v = 0; v < normal.size(); ++v) {
+        EXPECT_NEAR(here[v].dot(area[v].normalized()), 1, 1e-12);
+        EXPECT_NEAR((turn * here[v] - there[v]).norm(), 0, 1e-9);
+    }
+    Mesh mixed = shapes::irregular_sphere(500);
+    for (std::size_t f = 0; f < mixed.faces.size(); f += 2) std::swap(mixed.faces[f][0], mixed.faces[f][1]);
+    const Array<Vec3> of_mixed = directions(mixed.faces, mixed.positions);
+    for (std::size_t v = 0; v < of_mixed.size(); ++v)
+        EXPECT_GT(std::abs(of_mixed[v].dot(mixed.positions[v].normalized())), 0.8);
 }
 
 }  // namespace multires
