@@ -33,22 +33,26 @@ bool stand_out(const Faces& faces, const Positions& before, const Positions& aft
     return !moved.empty() && lower_quantile(moved, 0.5) > 1.3 * lower_quantile(rest, 0.8);
 }
 
-/// Puts back what moved much farther than most did: shape, such as the jags of cliffs in a grid, may stand out, too,
-/// but the sizes of impulses have an end.
+/// Puts back what moved much farther than most did from where a neighbour is, too: the jags of cliffs in a grid stand
+/// out as large impulses do, but not alone.
 /// @returns  vertices that are still moved
-Index put_back_farthest(const Positions& before, Positions& after) {
-    constexpr double most = 0.8, farthest = 3.25;
-    std::vector<double> length;
+Index put_back_jags(const Positions& before, const Neighbours& near, Positions& after) {
+    constexpr double most = 0.8, far = 3.25, beside = 0.5;
+    std::vector<double> lengths;
     for (std::size_t i = 0; i < before.size(); ++i)
-        if (after[i] != before[i]) length.push_back((after[i] - before[i]).norm());
-    if (length.empty()) return 0;
-    const double limit = farthest * lower_quantile(length, most);
-    Index moved = 0;
-    for (std::size_t i = 0; i < before.size(); ++i) {
-        if ((after[i] - before[i]).norm() > limit) after[i] = before[i];
-        moved += after[i] != before[i];
+        if (after[i] != before[i]) lengths.push_back((after[i] - before[i]).norm());
+    if (lengths.empty()) return 0;
+    const double limit = far * lower_quantile(lengths, most);
+    Index left = 0;
+    for (Index v = 0; v < near.rows(); ++v) {
+        const Vec3 back = before[v] - after[v];
+        const auto is_beside = [&](Index w) { return (before[w] - after[v]).dot(back) > beside * back.squaredNorm(); };
+        const auto* const ring = near.vertex.data();
+        if (back.norm() > limit && std::any_of(ring + near.offset[v], ring + near.offset[v + 1], is_beside))
+            after[v] = before[v];
+        left += after[v] != before[v];
     }
-    return moved;
+    return left;
 }
 
 /// Noise that differs from place to place is white in most places, or it would not be found.
@@ -83,7 +87,7 @@ Positions without_impulses(const Faces& faces, const Positions& positions, const
     std::vector<std::uint8_t> moves(positions.size());
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = start[i] != positions[i];
     start = guided_steps(faces, start, at, face_graph(faces, at), spike_steps, moves);
-    spikes = put_back_farthest(positions, start);
+    spikes = put_back_jags(positions, near, start);
     return start;
 }
 

@@ -226,6 +226,17 @@ TEST(AutomaticDenoise, LeavesTheJagsOfCliffsAlone) {
     }
 }
 
+// Scanners' impulses are of all sizes: those far larger than most are not taken for shape.
+TEST(AutomaticDenoise, TakesGiantImpulsesBackAmongSmallOnes) {
+    const Mesh truth = shapes::irregular_sphere(4000);
+    Mesh mesh = noisy(truth, Model::impulsive, 0.3);
+    const Positions normal = fixtures::vertex_normals(truth);
+    for (std::size_t v = 50; v < mesh.positions.size(); v += 200)
+        mesh.positions[v] = truth.positions[v] + (v % 400 == 50 ? 5 : -5) * edge_of(truth) * normal[v];
+    const Positions after = *run(layer_of(mesh)).positions;
+    EXPECT_LT(rms_distance(truth.positions, after), 0.3 * rms_distance(truth.positions, mesh.positions));
+}
+
 TEST(AutomaticDenoise, TakesRoundedCoordinatesBackWithinTheirCells) {
     for (const Mesh& truth : {shapes::irregular_sphere(3000), shapes::scan(3000)})
         for (const double deviation : {0.05, 0.2, 0.4}) {
