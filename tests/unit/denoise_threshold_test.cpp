@@ -1,6 +1,7 @@
 #include "filters/shape/denoise_threshold.h"
 
 #include "denoise_fixtures.h"
+#include "measure/vertex_normals.h"
 #include "scheme_fixtures.h"
 
 namespace multires {
@@ -185,8 +186,12 @@ TEST(DenoiseThreshold, OneThresholdForAllLevelsIsTheSameForAll) {
 }
 
 TEST(DenoiseThreshold, AlongTheNormalOnlyLeavesWhatIsInTheSurface) {
-    // A plane with irregular vertices: all details are within it.
-    const Mesh plane = shapes::plane(25);
+    // A plane whose vertices and outline are in waves: all details are within it.
+    Mesh plane = shapes::plane(25);
+    const Face& f = plane.faces[0];
+    const Vec3 along = (plane.positions[f[1]] - plane.positions[f[0]]).normalized();
+    const Vec3 across = area_vector(f, plane.positions).normalized().cross(along);
+    for (Vec3& p : plane.positions) p += 0.05 * std::sin(9 * p.dot(along)) * across;
     for (DenoiseOptions options : every_way()) {
         options.unit = ThresholdUnit::length;
         options.threshold = 1;
