@@ -18,7 +18,7 @@ enum class BandMethod {
 
 /// The spline where edges differ so much that no level of a pyramid has a wavelength: edge_spread() above 1.6. The
 /// scans at hand have 1.01 to 1.44, tessellations of CAD programs 1.7 to 11: there low passes by the pyramid moved
-/// vertices by .1 to .6 of the diagonal, by the spline by .01 to .05 (docs/bands.md).
+/// vertices by .04 to .6 of the diagonal, by the spline by .01 to .05 (docs/bands.md).
 BandMethod default_method(const Mesh& mesh);
 
 struct Calibration {

@@ -69,7 +69,9 @@ public:
     Reconstructor(const Layer& layer, const AdaptiveOptions& options, const Hierarchy& h, const Insertion& insertion)
         : layer_(layer), options_(options), h_(h), insertion_(insertion), region_(selected_region(layer)) {
         base_faces_ = faces_of(h.size.back());
-        all_faces_ = std::accumulate(insertion.faces.begin(), insertion.faces.end(), base_faces_);
+        const auto faces = std::count_if(layer.mesh.faces.begin(), layer.mesh.faces.end(),
+                                         [](const Face& f) { return !repeats_an_index(f); });
+        faces_twice_ = std::accumulate(insertion.faces.begin(), insertion.faces.end(), base_faces_) != faces;
     }
 
     Reconstruction make(Index count, bool measure) const {
@@ -105,7 +107,7 @@ public:
 
     /// The largest prefix with at most so many faces, and at least `least` vertices.
     Index count_for_faces(Index least, int most) const {
-        if (all_faces_ != static_cast<int>(layer_.mesh.faces.size())) return searched_for_faces(least, most);
+        if (faces_twice_) return searched_for_faces(least, most);
         int faces = base_faces_;
         Index count = h_.size.back();
         while (count < h_.vertices()) {
@@ -139,7 +141,8 @@ private:
     const Hierarchy& h_;
     const Insertion& insertion_;
     std::vector<std::uint8_t> region_;
-    int base_faces_, all_faces_;  ///< the second by what vertices bring with them
+    int base_faces_;
+    bool faces_twice_;  ///< there are more than vertices bring with them
 };
 
 void report_thresholds(AdaptiveOptions o, double scale, Report& report) {
