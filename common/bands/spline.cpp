@@ -4,13 +4,13 @@
 #include "base/angles.h"
 #include "base/error.h"
 #include "base/hash.h"
+#include "base/number.h"
 #include "base/parallel.h"
 #include "base/reduce.h"
 #include "measure/measure.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <string>
 
 namespace multires {
@@ -40,17 +40,18 @@ ContentHash spline_hash(const Mesh& mesh, const std::vector<std::uint8_t>& held)
     return hash.bits128();
 }
 
+void require_carried(double wavelength, const std::string& parameter, double mean_edge) {
+    require(std::isfinite(wavelength) && wavelength >= 2 * mean_edge,
+            parameter + " must be at least two mean edges, " + number(2 * mean_edge) +
+                " mesh units: the mesh carries no shorter waves");
+}
+
 Spline::Spline(const Mesh& mesh, const std::vector<std::uint8_t>& held, const Progress& progress)
     : hash_(spline_hash(mesh, held)), mean_edge_(mean_edge_length(mesh.faces, mesh.positions)),
       size_(bounding_box(mesh.positions).diagonal()), system_(mesh, system_options(held), progress) {}
 
 double Spline::stiffness_of(const Cutoff& cutoff, const char* parameter) const {
-    if (!(std::isfinite(cutoff.wavelength) && cutoff.wavelength >= 2 * mean_edge_)) {
-        std::ostringstream message;
-        message << parameter << " must be at least two mean edges, " << 2 * mean_edge_
-                << " mesh units: the mesh carries no shorter waves";
-        throw InputError(message.str());
-    }
+    require_carried(cutoff.wavelength, parameter, mean_edge_);
     const double k = 2 * pi / std::min(cutoff.wavelength, std::max(2 * mean_edge_, 1000 * size_));
     return 1 / (k * k);
 }

@@ -7,6 +7,7 @@
 #include "solvers/system.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 /// The calibrated filter: a low pass with a transmission by formula on any mesh, for positions and for attributes.
@@ -21,6 +22,9 @@ struct Cutoff {
     LowPassOrder order = LowPassOrder::second;
     double wavelength = 0;  ///< mesh units, of the wave that is halved
 };
+
+/// @throws InputError  naming `parameter` unless the wavelength is finite and at least two mean edges
+void require_carried(double wavelength, const std::string& parameter, double mean_edge);
 
 /// The systems of a mesh, set up once for all cutoffs and orders. Immutable.
 /// Memory: about 350 bytes a vertex, and 300 more while it filters.

@@ -1,12 +1,12 @@
 #include "filters/calibration.h"
 
+#include "base/number.h"
 #include "measure/measure.h"
 #include "mesh/adjacency.h"
 #include "mesh/validation.h"
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace multires {
 namespace {
@@ -81,11 +81,8 @@ void report_transmission(const Spline& spline, const Mesh& mesh, const Calibrati
     std::vector<double> wave, measured, formula;
     for (const MeasuredTransmission& m : all) {
         wave.push_back(m.wave), measured.push_back(m.measured), formula.push_back(m.formula);
-        std::ostringstream line;
-        line.precision(3);
-        line << "Measured on this mesh: the low pass at " << cutoff << " leaves " << m.measured << " of waves of "
-             << m.wave << " (formula: " << m.formula << ").";
-        report.say(line.str());
+        report.say("Measured on this mesh: the low pass at " + number(cutoff, 3) + " leaves " + number(m.measured, 3) +
+                   " of waves of " + number(m.wave, 3) + " (formula: " + number(m.formula, 3) + ").");
     }
     if (all.empty()) report.say("No part of the mesh is flat enough to measure the transmission.");
     report.add("measured_waves", wave, "mesh units");

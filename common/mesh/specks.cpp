@@ -20,7 +20,6 @@ void keep(const std::vector<std::uint8_t>& stays, Values& of_faces) {
 }  // namespace
 
 std::optional<WithoutSpecks> without_specks(const Layer& layer) {
-    constexpr Index large_enough = 100, share = 100;
     const Faces& faces = layer.mesh.faces;
     const auto vertices = static_cast<Index>(layer.mesh.positions.size());
     DisjointSets parts(vertices);
@@ -29,14 +28,13 @@ std::optional<WithoutSpecks> without_specks(const Layer& layer) {
     Array<Index> size(vertices, 0);  // of the part whose root a vertex is
     for (Index v = 0; v < vertices; ++v) ++size[parts.find(v).root];
     const Index largest = vertices > 0 ? *std::max_element(size.begin(), size.end()) : 0;
-    const Index least = std::min(large_enough, largest / share);
-    const auto is_speck = [&](Index part) { return size[part] > 1 && size[part] < least; };
+    const auto goes = [&](Index root) { return size[root] > 1 && is_speck(size[root], largest); };
 
     WithoutSpecks out;
-    for (Index v = 0; v < vertices; ++v) out.specks += is_speck(v);
+    for (Index v = 0; v < vertices; ++v) out.specks += goes(v);
     if (out.specks == 0) return std::nullopt;
     std::vector<std::uint8_t> stays(faces.size());
-    for (std::size_t f = 0; f < faces.size(); ++f) stays[f] = !is_speck(parts.find(faces[f][0]).root);
+    for (std::size_t f = 0; f < faces.size(); ++f) stays[f] = !goes(parts.find(faces[f][0]).root);
     out.layer = layer;
     out.layer.wedges.clear();
     keep(stays, out.layer.mesh.faces);

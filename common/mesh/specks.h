@@ -6,8 +6,11 @@
 
 namespace multires {
 
-/// A layer without specks: parts of fewer than 100 vertices that have less than a hundredth of those of the largest
-/// part, as float beside raw scans. They are too small for a surface and noise to be told apart.
+/// True for a part that is a speck, as float beside raw scans: fewer than 100 vertices, and less than a hundredth of
+/// those of the largest part. They are too small for a surface and noise to be told apart.
+constexpr bool is_speck(Index vertices, Index largest) { return vertices < 100 && vertices < largest / 100; }
+
+/// A layer without specks.
 struct WithoutSpecks {
     Layer layer;       ///< all vertices, those of specks in no face; without wedges
     Index specks = 0;  ///< how many there were

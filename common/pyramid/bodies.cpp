@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "base/reduce.h"
 #include "hierarchy/parts.h"
+#include "mesh/specks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -57,9 +58,8 @@ public:
 
 private:
     int step_of(Index i, Index largest, const std::vector<Mean>& edge) const {
-        const bool speck = size_[i] < 100 && 100.0 * size_[i] < size_[largest];
         const double ratio = edge[i].value() / edge[largest].value();
-        if (speck || !(ratio > 0 && std::isfinite(ratio))) return 0;
+        if (is_speck(size_[i], size_[largest]) || !(ratio > 0 && std::isfinite(ratio))) return 0;
         return static_cast<int>(std::clamp(std::round(2 * std::log2(ratio)), -100.0, 100.0));
     }
 

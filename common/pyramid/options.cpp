@@ -1,11 +1,11 @@
 #include "pyramid/options.h"
 
 #include "base/hash.h"
+#include "base/number.h"
 #include "mesh/adjacency.h"
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 namespace multires {
@@ -15,12 +15,6 @@ namespace {
 PyramidOptions effective(PyramidOptions o) {
     if (o.features.from != Features::angle) o.features.angle = FeatureOptions().angle;
     return o;
-}
-
-std::string number(double x) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.9g", x);
-    return text;
 }
 
 }  // namespace

@@ -1,8 +1,9 @@
 #include "shared/parameters.h"
 
+#include "base/number.h"
+
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace multires::plugin {
 namespace {
@@ -11,23 +12,15 @@ namespace {
 std::string title(const Parameter& p) { return "Parameter \"" + p.name + "\" (" + p.hint.label + ")"; }
 
 std::string words(const Range& range) {
-    std::ostringstream out;
     const bool below = std::isfinite(range.least), above = std::isfinite(range.most);
-    if (below && above)
-        out << "between " << range.least << " and " << range.most;
-    else if (below)
-        out << "at least " << range.least;
-    else if (above)
-        out << "at most " << range.most;
-    else
-        out << "a finite number";
-    return out.str();
+    if (below && above) return "between " + number(range.least) + " and " + number(range.most);
+    if (below) return "at least " + number(range.least);
+    if (above) return "at most " + number(range.most);
+    return "a finite number";
 }
 
 [[noreturn]] void refuse(const Parameter& p, double value, const Range& range) {
-    std::ostringstream message;
-    message << title(p) << " is " << value << "; it must be " << words(range) << ".";
-    throw InputError(message.str());
+    throw InputError(title(p) + " is " + number(value) + "; it must be " + words(range) + ".");
 }
 
 /// `value` if it is in the range, or in single precision: then the end of the range.

@@ -148,9 +148,15 @@ TEST(GridBand, AGainScalesTheDetailsOfItsLevels) {
 TEST(GridBand, RefusesGainsThatAreNoNumbers) {
     const Layer layer = layer_of(shapes::grid_terrain());
     GridBandOptions options;
-    for (const char* text : {"x", "1, two", "nan", "1;2"}) {
+    for (const char* text : {"x", "1, two", "nan", "1;2", "1e", "0.5x"}) {
         options.gains = text;
         EXPECT_THROW(band(layer, options), InputError) << text;
+    }
+    options.gains = "1, 0.5";
+    const Positions expected = band(layer, options);
+    for (const char* text : {" 1,0.5", "1 0.5 ", "1,,5e-1,"}) {
+        options.gains = text;
+        EXPECT_EQ(largest_distance(band(layer, options), expected), 0) << text;
     }
 }
 

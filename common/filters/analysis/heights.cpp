@@ -13,7 +13,6 @@
 #include <functional>
 #include <limits>
 #include <queue>
-#include <sstream>
 #include <utility>
 
 namespace multires {
@@ -59,15 +58,6 @@ Positions feet(const Positions& positions, const Positions& smooth, const Array<
     return at;
 }
 
-/// Refuses what the mesh does not carry, as Spline does.
-void require_carried(const NamedLimit& limit, double mean_edge) {
-    if (std::isfinite(limit.wavelength) && limit.wavelength >= 2 * mean_edge) return;
-    std::ostringstream message;
-    message << limit.parameter << " must be at least two mean edges, " << 2 * mean_edge
-            << " mesh units: the mesh carries no shorter waves";
-    throw InputError(message.str());
-}
-
 /// Takes what a robust low pass holds off raw heights, and their noise.
 void make_robust(const Spline& spline, const TextureBand& band, const Array<Vec3>& normal, Heights& heights,
                  const Progress& progress) {
@@ -91,8 +81,8 @@ void make_robust(const Spline& spline, const TextureBand& band, const Array<Vec3
 
 Heights heights_over_low_pass(const Spline& spline, const Mesh& mesh, const TextureBand& band,
                               const Progress& progress) {
-    if (band.finest.wavelength != 0) require_carried(band.finest, spline.mean_edge());
-    require_carried(band.coarsest, spline.mean_edge());
+    if (band.finest.wavelength != 0) require_carried(band.finest.wavelength, band.finest.parameter, spline.mean_edge());
+    require_carried(band.coarsest.wavelength, band.coarsest.parameter, spline.mean_edge());
     Positions low(mesh.positions.size()), fine = mesh.positions;
     const double beyond_all = 1000 * bounding_box(mesh.positions).diagonal();  // no wave passes, as in Spline
     const auto pass = [&](const Spline& s, const NamedLimit& limit, Positions& out, double begin) {

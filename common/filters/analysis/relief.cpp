@@ -1,5 +1,6 @@
 #include "filters/analysis/relief.h"
 
+#include "base/number.h"
 #include "base/parallel.h"
 #include "base/reduce.h"
 #include "filters/analysis/heights.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <sstream>
 
 namespace multires {
 namespace {
@@ -69,10 +69,7 @@ TextureBand band_of(const Spline& spline, const Layer& layer, const ReliefOption
     band.coarsest = {coarsest, "coarsest"};
     // A fine limit that is just that of the mesh (by rounding, or not) makes no difference: none.
     band.finest = {o.finest > 0 ? o.finest : finest > 1.001 * shortest ? finest : 0, "finest"};
-    std::ostringstream line;
-    line.precision(3);
-    line << "Band chosen: waves from " << band.finest.wavelength << " to " << coarsest << ".";
-    report.say(line.str());
+    report.say("Band chosen: waves from " + number(band.finest.wavelength, 3) + " to " + number(coarsest, 3) + ".");
     return band;
 }
 

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace multires {
 namespace {
@@ -20,12 +19,7 @@ constexpr double tolerance = 1e-2;  ///< of each band: see scales.h
 void check(const ScaleOptions& o, double mean_edge) {
     require(o.bands >= 1 && o.bands <= most_scales, "bands must be 1 to " + std::to_string(most_scales));
     const double least = o.bands == 1 ? o.coarsest : o.finest;
-    if (!(std::isfinite(least) && least >= 2 * mean_edge)) {
-        std::ostringstream message;
-        message << (o.bands == 1 ? "coarsest" : "finest") << " must be at least two mean edges, " << 2 * mean_edge
-                << " mesh units: the mesh carries no shorter waves";
-        throw InputError(message.str());
-    }
+    require_carried(least, o.bands == 1 ? "coarsest" : "finest", mean_edge);
     require(std::isfinite(o.coarsest), "coarsest must be a number");
     require(o.bands == 1 || o.coarsest > o.finest, "coarsest must be more than finest");
     const auto fits = [](char c) {

@@ -1,36 +1,32 @@
 #include "filters/attributes/attributes_automatic.h"
 
+#include "base/number.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 namespace multires {
 namespace {
 
-std::string number(double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", value);
-    return text.data();
-}
+std::string short_text(double value) { return number(value, 3); }
 
-std::string percent(double share) { return number(100 * share) + " %"; }
+std::string percent(double share) { return short_text(100 * share) + " %"; }
 
 /// What was found and done, in words.
 std::string summary(const std::string& label, const DenoisedValues& d, double noise) {
     std::string text = label + ": ";
     if (d.impulses > 0) text += "impulses at " + std::to_string(d.impulses) + " vertices were replaced; ";
-    if (d.step > 0) text += "values were rounded to steps of " + number(d.step) + "; ";
+    if (d.step > 0) text += "values were rounded to steps of " + short_text(d.step) + "; ";
     if (!(noise > 0)) return text + "no noise that could be told from what is there.";
-    text += "noise of " + number(noise);
+    text += "noise of " + short_text(noise);
     if (d.largest_noise > 1.2 * d.smallest_noise)
-        text += " (" + number(d.smallest_noise) + " to " + number(d.largest_noise) + ")";
+        text += " (" + short_text(d.smallest_noise) + " to " + short_text(d.largest_noise) + ")";
     const double blended = d.low_pass + d.wiener + d.total_variation;
     if (blended > 0)
         return text + "; low passes " + percent(d.low_pass) + ", Wiener filters " + percent(d.wiener) +
-               ", total variation " + percent(d.total_variation) + "; expected error " + number(d.rms_before) +
-               ", now " + number(d.rms_after) + ".";
+               ", total variation " + percent(d.total_variation) + "; expected error " + short_text(d.rms_before) +
+               ", now " + short_text(d.rms_after) + ".";
     return text + (d.step > 0 ? "." : "; nothing that was tried is expected to come clearly nearer to the truth.");
 }
 

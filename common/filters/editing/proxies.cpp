@@ -1,5 +1,6 @@
 #include "filters/editing/proxies.h"
 
+#include "base/number.h"
 #include "editing/wrap.h"
 #include "filters/editing/transfer_edit.h"
 #include "filters/placement.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -21,11 +21,7 @@ std::string counts(const Mesh& mesh) {
     return std::to_string(mesh.positions.size()) + " vertices and " + std::to_string(mesh.faces.size()) + " faces";
 }
 
-std::string short_text(double x) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.3g", x);
-    return text;
-}
+std::string short_text(double x) { return number(x, 3); }
 
 /// A face from its smallest index on.
 Face turned(const Face& f) {

@@ -3,22 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
+#include <locale>
+#include <sstream>
 
 namespace multires {
 namespace {
 
 /// The numbers of a list, as many as there are levels; 1 for those that are left out at the end.
 std::vector<double> listed_gains(const std::string& text, int levels) {
+    std::string spaced = text;
+    std::replace(spaced.begin(), spaced.end(), ',', ' ');
+    std::istringstream in(spaced);
+    in.imbue(std::locale::classic());  // a decimal point whatever the locale
     std::vector<double> gains;
-    const char* at = text.c_str();
-    while (*at) {
-        char* end = nullptr;
-        gains.push_back(std::strtod(at, &end));
-        require(end != at && std::isfinite(gains.back()), "gains must be numbers separated by commas");
-        at = end;
-        while (*at == ' ' || *at == ',') ++at;
-    }
+    while (!(in >> std::ws).eof())
+        require(static_cast<bool>(in >> gains.emplace_back()), "gains must be numbers separated by commas");
     gains.resize(levels, 1);
     return gains;
 }
