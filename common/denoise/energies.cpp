@@ -98,17 +98,29 @@ Energies local_energies(const Neighbours& near, const std::vector<double>& energ
 
 double peakedness(const std::vector<double>& detail, const std::vector<double>& energy,
                   const std::vector<Index>& inner) {
-    std::array<double, 3> size{}, square{};
-    for (const Index v : inner)
-        for (int c = 0; c < 3; ++c) {
-            if (!(energy[3 * v + c] > 0)) continue;
-            const double x = detail[3 * v + c] * detail[3 * v + c] / energy[3 * v + c];
-            size[c] += std::sqrt(x);
-            square[c] += x;
+    return peakedness(detail, energy, inner, {}, 1);
+}
+
+double peakedness(const std::vector<double>& detail, const std::vector<double>& energy, const std::vector<Index>& inner,
+                  const Energies& local, double share) {
+    const std::array<const std::vector<double>*, 3> of_channel = {&local.field, &local.noise[0], &local.noise[1]};
+    std::array<double, 3> peak{};
+    for (std::size_t c = 0; c < peak.size(); ++c) {
+        const std::vector<double>& energies = *of_channel[c];
+        const double most = quantile_of(energies, share);
+        double size = 0, square = 0, count = 0;
+        for (std::size_t i = 0; i < inner.size(); ++i) {
+            const std::size_t at = 3 * static_cast<std::size_t>(inner[i]) + c;
+            if (!(energy[at] > 0) || (share < 1 && energies[i] > most)) continue;
+            const double x = detail[at] * detail[at] / energy[at];
+            size += std::sqrt(x);
+            square += x;
+            ++count;
         }
-    const auto peak = [&](int c) { return size[c] > 0 ? square[c] / (size[c] * size[c]) : 0; };
-    const double expected = (peak(1) + peak(2)) / 2;
-    return expected > 0 ? peak(0) / expected : 0;
+        if (size > 0) peak[c] = count * square / (size * size);
+    }
+    const double expected = (peak[1] + peak[2]) / 2;
+    return expected > 0 ? peak[0] / expected : 0;
 }
 
 double without_bends(const Energies& energy, const Energies& bends) {

@@ -29,6 +29,11 @@ Energies local_energies(const Neighbours& near, const std::vector<double>& energ
 /// place, more for features, texture and impulses.
 double peakedness(const std::vector<double>& detail, const std::vector<double>& energy,
                   const std::vector<Index>& inner);
+/// The same over the quietest places of the surface, and of each sample of noise.
+/// @param local  energies of `inner`
+/// @param share  of the vertices, those with the least of them
+double peakedness(const std::vector<double>& detail, const std::vector<double>& energy, const std::vector<Index>& inner,
+                  const Energies& local, double share);
 
 /// The part of the energy that does not go with the bends: `energy` = noise + share x (bends - noise), fitted to tenths
 /// of the vertices by their bends, less what the noise's own fluctuations have in common.

@@ -59,6 +59,7 @@ struct Findings {
     double mean = 0, median = 0;              ///< of the third details
     double lower = 0, low = 0;                ///< what three tenths, and one tenth, of them stay below
     double peakedness = 0;                    ///< of the third details
+    double quiet_peakedness = 0;              ///< of those of three tenths
     double white = 1;                         ///< share of the third details: see white_share()
     std::optional<AxisNoise> axis;
     double peakedness_along_axis = 0;  ///< of the third details, beside noise along the axis
@@ -128,6 +129,7 @@ Findings findings(const Faces& faces, const Positions& p, const Incidence& at, c
         mean.lower += energy.quantile(0.3) / repeats;
         mean.low += energy.quantile(0.1) / repeats;
         mean.peakedness += peakedness(third, squares, inner) / repeats;
+        mean.quiet_peakedness += peakedness(third, squares, inner, energy, 0.3) / repeats;
     }
     mean.white = whiteness.share();
     if (mean.axis) {
@@ -172,7 +174,8 @@ double least_square(double square, const Findings& f, Index vertices, double edg
     const double by_chance = std::max(0.5, 1 - 6 / std::sqrt(static_cast<double>(vertices)));
     const double weak = std::clamp((0.05 - std::sqrt(square) / edge) / 0.01, 0.0, 1.0);
     const double others = f.lower + weak * (f.mean - f.lower);
-    return like_noise(f.peakedness) * std::max(0.0, by_chance * square - elsewhere * std::max(0.0, others - square));
+    const double like = std::max(like_noise(f.peakedness), (1 - weak) * like_noise(f.quiet_peakedness));
+    return like * std::max(0.0, by_chance * square - elsewhere * std::max(0.0, others - square));
 }
 
 /// Noise along an axis explains much of the energies, so that it is as certain as their kind.

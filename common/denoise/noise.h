@@ -8,7 +8,8 @@ namespace multires {
 struct SurfaceNoise {
     double along_normals = 0;  ///< standard deviation of the part along the normals, mesh units
     /// What it is at least, mesh units: details that are not taken for noise elsewhere, and details that stand out
-    /// of those around them as noise does not, tell how far shape may have been taken for noise.
+    /// of those around them as noise does not, tell how far shape may have been taken for noise. If it is strong, the
+    /// quietest three tenths of the surface are enough to tell.
     double at_least = 0;
     /// Share of the square that is white noise if the rest is a rough surface: see white_share(). Creases make it less.
     double white = 1;
