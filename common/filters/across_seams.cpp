@@ -121,11 +121,11 @@ const Positions* places_after(const Layer& layer, const Result& result) {
 }
 
 /// The report on the closed layer as one on the layer itself, which has more vertices.
-Report with_all_vertices(const Layer& layer, std::size_t closed, const Result& result) {
+/// @param more  vertices that it has
+Report with_all_vertices(const Layer& layer, int more, const Result& result) {
     Report out;
     for (const std::string& line : result.report.lines()) out.say(line);
     const Positions* const after = places_after(layer, result);
-    const auto more = static_cast<int>(layer.mesh.positions.size() - closed);
     for (Report::Entry e : result.report.entries()) {
         if (e.key == "rms_displacement" && after) e.value = displacement(layer.mesh.positions, *after).rms;
         if (e.key == "duplicate_vertices") e.value = std::get<int>(e.value) + more;
@@ -175,7 +175,8 @@ Result across_seams(const Inputs& inputs, const ClosedLayer* closed, Session& se
     for (Attribute& a : result.attributes) a.values = at(seams.joined, a.values, a.width);
     if (result.selected_vertex) result.selected_vertex = at(seams.joined, *result.selected_vertex);
     if (result.layer) result.layer = reopened(layer, *closed, std::move(*result.layer));
-    result.report = with_all_vertices(layer, closed->layer.mesh.positions.size(), result);
+    const auto more = static_cast<int>(seams.joined.size() - seams.first.size());
+    result.report = with_all_vertices(layer, more, result);
     return result;
 }
 

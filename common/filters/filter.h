@@ -7,6 +7,7 @@
 #include "mesh/layer.h"
 #include "pyramid/cache.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -60,6 +61,10 @@ struct Session {
     IntermediateCache intermediates;
     /// The systems of the calibrated filters (bands/spline.h), kept in the same way.
     std::shared_ptr<const Spline> spline;
+    /// For filters that need much memory, both null or both there: empties the mesh of the current layer, and gives
+    /// the place of its vertices all the same (several may be asked for at once).
+    std::function<void()> let_mesh_go;
+    std::function<Vec3(Index vertex)> position;
     /// The shape the layer had before an earlier call of any of our plugins first moved it; null if none did. The host
     /// keeps it up to date (see original.h).
     std::shared_ptr<const Original> original;
@@ -73,6 +78,7 @@ std::shared_ptr<const Pyramid> pyramid_of(const Layer& layer, const PyramidOptio
                                           Report& report);
 /// The same with a cache, and the progress of the whole.
 std::shared_ptr<const Pyramid> pyramid_of(const Layer& layer, const PyramidOptions& options, PyramidCache& pyramids,
-                                          const Progress& progress, Report& report);
+                                          const Progress& progress, Report& report,
+                                          const std::function<void()>& layer_read = {});
 
 }  // namespace multires

@@ -7,6 +7,7 @@
 #include "pyramid/wavelengths.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 namespace multires {
@@ -78,16 +79,20 @@ std::vector<LevelInfo> describe(const Hierarchy& h, const Coefficients& c, const
 
 }  // namespace
 
-Pyramid::Pyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress)
+Pyramid::Pyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress,
+                 const std::function<void()>& layer_read)
     : hash_(content_hash(layer, options)), shape_(shape_hash(layer.mesh.positions, layer.mesh.faces)),
       hierarchy_(hierarchy_of(layer, options, progress)) {
+    const std::vector<double> wavelength = wavelengths(hierarchy_, layer.mesh.faces, options.hierarchy.base_vertices);
+    return_free_memory(much);  // the holes that the hierarchy left
     progress.report(0.6, "Computing weights");
     scheme_ = make_scheme(hierarchy_, options.scheme);
     progress.report(0.8, "Computing details");
-    const std::vector<double> wavelength = wavelengths(hierarchy_, layer.mesh.faces, options.hierarchy.base_vertices);
     hierarchy_.positions = Positions();  // the layer has them
-    return_free_memory(much);            // the holes that the hierarchy left
-    coefficients_ = scheme_->analyse(in_places(hierarchy_, layer.mesh.positions), options.scheme.storage);
+    Field f = in_places(hierarchy_, layer.mesh.positions);
+    if (layer_read) layer_read();
+    return_free_memory(much);  // and those of positions and layer
+    coefficients_ = scheme_->analyse(std::move(f), options.scheme.storage);
     levels_ = describe(hierarchy_, coefficients_, wavelength);
     bytes_ = sizeof(Pyramid) + multires::bytes(hierarchy_) + scheme_->bytes() + multires::bytes(coefficients_) +
              levels_.capacity() * sizeof(LevelInfo);
@@ -95,22 +100,14 @@ Pyramid::Pyramid(const Layer& layer, const PyramidOptions& options, const Progre
     progress.report(1, "Pyramid built");
 }
 
-double Pyramid::reconstruction_error(const Positions& positions) const {
-    struct Largest {
-        double square = 0;
-        Largest& operator+=(const Largest& o) {
-            square = std::max(square, o.square);
-            return *this;
-        }
-    };
-    const Field back = scheme_->synthesise(coefficients_);
-    const auto largest = chunked_reduce<Largest>(back.rows(), [&](std::size_t begin, std::size_t end) {
-        Largest part;
-        for (std::size_t p = begin; p < end; ++p)
-            part += {(positions[hierarchy_.order[p]] - Vec3(back.row(static_cast<Index>(p)))).squaredNorm()};
-        return part;
+double Pyramid::reconstruction_error(const std::function<Vec3(Index)>& position) const {
+    std::atomic<double> largest{0};  // square
+    scheme_->hand_over(coefficients_, [&](Index place, const double* back) {
+        const double square = (position(hierarchy_.order[place]) - Eigen::Map<const Vec3>(back)).squaredNorm();
+        double before = largest.load(std::memory_order_relaxed);
+        while (square > before && !largest.compare_exchange_weak(before, square, std::memory_order_relaxed)) continue;
     });
-    return std::sqrt(largest.square);
+    return std::sqrt(largest);
 }
 
 Positions Pyramid::synthesise(std::vector<double> gain) const {

@@ -17,7 +17,9 @@ struct LevelInfo {
 class Pyramid {
 public:
     /// @throws InputError  for features that the layer does not have
-    Pyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress);
+    /// @param layer_read  called when the layer is not needed any more; it may be gone from then on
+    Pyramid(const Layer& layer, const PyramidOptions& options, const Progress& progress,
+            const std::function<void()>& layer_read = {});
 
     /// Without positions: place p is vertex order[p] of the layer.
     const Hierarchy& hierarchy() const { return hierarchy_; }
@@ -31,8 +33,8 @@ public:
     std::size_t bytes() const { return bytes_; }
 
     /// Largest distance between the input's vertices and what synthesis without any gain gives, mesh units.
-    /// @param positions  of the layer
-    double reconstruction_error(const Positions& positions) const;
+    /// @param position  of a vertex of the layer; several are asked for at once
+    double reconstruction_error(const std::function<Vec3(Index)>& position) const;
 
     /// Positions with the details of each level multiplied by a gain, in order of the input.
     Positions synthesise(std::vector<double> gain) const;

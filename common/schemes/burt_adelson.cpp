@@ -32,19 +32,38 @@ public:
     }
 
     Field synthesise(const Coefficients& coefficients, const Synthesis& how) const override {
-        Field scratch;  // room for the largest level from the start: smaller ones leave holes
-        return synthesise_levels(
-            hierarchy(), coefficients, how, [&](std::size_t k, const std::vector<Subband>* d, double gain, Field& f) {
-                scratch.width = f.width;
-                scratch.values.reserve(static_cast<std::size_t>(hierarchy().even[how.to].rows()) * f.width);
-                with_details(d, gain, coarse_ && has_frames(f),
-                             [&](const auto& odd, const auto& even) { synthesise_level(k, odd, even, f, scratch); });
-            });
+        return synthesise(coefficients, how, nullptr);
+    }
+
+    void hand_over(const Coefficients& coefficients, const Take& take) const override {
+        const Hierarchy& h = hierarchy();
+        if (h.levels.empty() || h.even[0].rows() < h.size[1])  // one vertex a level: few change
+            Scheme::hand_over(coefficients, take);
+        else
+            synthesise(coefficients, Synthesis(), &take);
     }
 
     std::size_t bytes() const override { return odd_.bytes() + relaxed_rows::bytes(even_); }
 
 private:
+    /// @param take  if not null: gets the input's level, which is not kept then
+    Field synthesise(const Coefficients& coefficients, const Synthesis& how, const Take* take) const {
+        const std::size_t last = take ? 1 : how.to;  // level that is kept
+        Field scratch;                               // room for that one from the start: smaller ones leave holes
+        return synthesise_levels(
+            hierarchy(), coefficients, how, [&](std::size_t k, const std::vector<Subband>* d, double gain, Field& f) {
+                with_details(d, gain, coarse_ && has_frames(f), [&](const auto& odd, const auto& even) {
+                    if (k < last) {
+                        scratch = Field();
+                        return hand_over_finest(odd, even, f, *take);
+                    }
+                    scratch.width = f.width;
+                    scratch.values.reserve(static_cast<std::size_t>(hierarchy().even[last].rows()) * f.width);
+                    synthesise_level(k, odd, even, f, scratch);
+                });
+            });
+    }
+
     /// The details of a level; f, its values, becomes g of the file's head. Touches only the rows that the level has:
     /// with one vertex per level there are few.
     std::vector<Subband> analyse_level(std::size_t k, Field& f) const {
@@ -81,6 +100,39 @@ private:
         return smooth;
     }
 
+    /// What f holds on even vertices, R of it on odd ones (Guskov), or these finished (Roy).
+    template <class Value>
+    void fill_odd(std::size_t k, const Details<Value>& odd, Field& f) const {
+        predict_odd(hierarchy(), k, odd_, f, [&](Index r, const double* predicted) {
+            double* const row = f.row(hierarchy().odd.vertex(r));
+            if (coarse_)
+                copy_row(predicted, f.width, row);
+            else
+                odd.add(r, predicted, f, row);
+        });
+    }
+
+    /// synthesise_level() of the finest level, to be used at once; f stays what all is predicted from.
+    template <class Value>
+    void hand_over_finest(const Details<Value>& odd, const Details<Value>& even, Field& f, const Take& take) const {
+        const Rings &odd_rings = hierarchy().odd, &even_rings = hierarchy().even[0];
+        const auto vertex = [&](Index r) { return even_rings.vertex(r); };
+        fill_odd(0, odd, f);
+        for_relaxed_rows(even_[0], 0, even_rings.rows(), f, vertex, [&](Index r, double* value) {
+            even.add(r, value, f, value);
+            take(vertex(r), value);
+        });
+        const RowRange rows = hierarchy().levels[0].odd;
+        parallel_chunks(rows.size(), 1024, [&](Index begin, Index end) {
+            Field value = Field::unset(1, f.width);
+            for (Index r = rows.begin + begin; r < rows.begin + end; ++r) {
+                const Index place = odd_rings.vertex(r);
+                if (coarse_) odd.add(r, f.row(place), f, value.row(0));
+                take(place, coarse_ ? value.row(0) : f.row(place));
+            }
+        });
+    }
+
     /// The inverse of analyse_level.
     /// @param values  to work in
     template <class Value>
@@ -91,12 +143,7 @@ private:
         const int width = f.width;
         const auto odd_row = [&](Index r) { return f.row(odd_rings.vertex(r)); };
         // Guskov predicts even vertices from predicted odd ones: those are finished when that is done.
-        predict_odd(hierarchy(), k, odd_, f, [&](Index r, const double* predicted) {
-            if (coarse_)
-                copy_row(predicted, width, odd_row(r));
-            else
-                odd.add(r, predicted, f, odd_row(r));
-        });
+        fill_odd(k, odd, f);
         values.values.resize(static_cast<std::size_t>(even_rings.rows()) * width);  // rows need the old ones of all
         const auto vertex = [&](Index r) { return even_rings.vertex(r); };
         for_relaxed_rows(even_[k], 0, even_rings.rows(), f, vertex,

@@ -216,7 +216,6 @@ Coefficients analyse_levels(const Hierarchy& h, Field f, Storage storage, const 
         if (storage == Storage::single)
             for (Subband& band : out.level.back()) narrow(band);
         f.values.resize(static_cast<std::size_t>(h.levels[k].coarse) * f.width);
-        if (f.values.capacity() > 3 * f.values.size() / 2) f.values.shrink_to_fit();
     }
     f.values.shrink_to_fit();
     out.base = std::move(f);

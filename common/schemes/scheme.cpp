@@ -33,6 +33,11 @@ std::size_t bytes(const Coefficients& coefficients) {
     return sum;
 }
 
+void Scheme::hand_over(const Coefficients& coefficients, const Take& take) const {
+    const Field f = synthesise(coefficients);
+    parallel_for(f.rows(), [&](Index place) { take(place, f.row(place)); });
+}
+
 Vec3 Scheme::normal(const Subband& subband, Index row, const Positions& positions) const {
     if (!subband.local.empty() && subband.local[row]) return {0, 0, 1};
     const Rings& rings = *subband.rings;

@@ -4,6 +4,7 @@
 #include "schemes/field.h"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace multires {
@@ -99,6 +100,11 @@ public:
     /// @returns  size[to] rows in order of places
     virtual Field synthesise(const Coefficients& coefficients, const Synthesis& how) const = 0;
     Field synthesise(const Coefficients& coefficients) const { return synthesise(coefficients, Synthesis()); }
+
+    using Take = std::function<void(Index place, const double* values)>;
+    /// Hands over the rows of synthesise(coefficients) one by one, in any order, some at once. Schemes that can do so
+    /// never hold all of them, but only what they are predicted from.
+    virtual void hand_over(const Coefficients& coefficients, const Take& take) const;
 
     /// The surface's normal at a row of a subband of positions, in the axes that the row is stored in: (0, 0, 1) in a
     /// local frame, otherwise that of the ring, in the world's axes. Zero if the ring has no area: no part of a detail

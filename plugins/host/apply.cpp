@@ -182,10 +182,15 @@ void apply(const Filter& filter, const RichParameterList& list, MeshDocument& do
     const MemoryGoesBack at_end;
     release_deleted(document);
     MeshModel& model = current_mesh(filter, document);
-    const VcgLayer flat = read_layer(filter, model);
+    VcgLayer flat = read_layer(filter, model);
 
     Session session;
     session.progress = progress_of(callback);
+    session.let_mesh_go = [&] { flat.layer.mesh = Mesh(); };
+    session.position = [&](Index i) {
+        const auto& p = model.cm.vert[flat.host_vertex[i]].cP();
+        return Vec3(p[0], p[1], p[2]);
+    };
     const Borrowed borrowed(model.cm, session);
     const Kept before = kept(model.cm);
     session.original = before.original;

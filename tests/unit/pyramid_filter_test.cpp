@@ -208,6 +208,28 @@ TEST(ComputePyramid, ItsTableIsThatOfTheLevels) {
     }
 }
 
+TEST(ComputePyramid, LetsTheMeshGoOnceItIsRead) {
+    const Layer layer = layer_of(shapes::scan(3000));
+    Session usual;
+    const Report expected = compute_pyramid(layer, {}, usual).report;
+    for (int call = 0; call < 2; ++call) {
+        Layer in_hands = layer;
+        int times = 0;
+        Session session;
+        if (call == 1) session.pyramids = usual.pyramids;  // the mesh stays: a kept pyramid takes no memory
+        session.let_mesh_go = [&] { in_hands.mesh = Mesh(), ++times; };
+        session.position = [&](Index v) { return layer.mesh.positions[v]; };
+        const Report report = compute_pyramid(in_hands, {}, session).report;
+        EXPECT_EQ(times, 1 - call);
+        EXPECT_EQ(report.lines(), expected.lines());
+        ASSERT_EQ(report.entries().size(), expected.entries().size());
+        for (std::size_t i = 0; i < expected.entries().size(); ++i) {
+            const Report::Entry& e = expected.entries()[i];
+            EXPECT_TRUE(e.key == "pyramid_reused" || report.entries()[i].value == e.value) << e.key;
+        }
+    }
+}
+
 TEST(ComputePyramid, OneVertexPerLevelGivesAShortTable) {
     ComputePyramidOptions options;
     options.pyramid.hierarchy.grouping = Grouping::sequential;

@@ -158,6 +158,28 @@ TEST_P(SchemeWith, SingleStorageInvertsAndFiltersAlike) {
         }
 }
 
+TEST_P(SchemeWith, HandsOverTheRowsOfItsSynthesis) {
+    int cases = 0;
+    for (std::size_t m = 0; m < every_class().size(); ++m)
+        for (const int scheme : schemes_of(m, GetParam())) {
+            SCOPED_TRACE(every_class()[m].first + ", " + scheme_name(scheme));
+            const Hierarchy& h = hierarchy(scheme, m, ++cases % 4);
+            SchemeOptions options = options_of(scheme, GetParam(), 0.5);
+            options.storage = cases % 3 == 0 ? Storage::single : Storage::wide;
+            const auto made = make_scheme(h, options);
+            const Field f = with_random_channels(field_of(h.positions), cases % 3, m);
+            const Coefficients c = made->analyse(f, options.storage);
+            Field rows(f.rows(), f.width);
+            std::vector<int> times(f.rows(), 0);
+            made->hand_over(c, [&](Index place, const double* values) {
+                std::copy_n(values, f.width, rows.row(place));
+                ++times[place];
+            });
+            EXPECT_EQ(rows.values, made->synthesise(c).values);
+            EXPECT_EQ(std::count(times.begin(), times.end(), 1), f.rows());
+        }
+}
+
 TEST_P(SchemeWith, ReproducesConstants) {
     for (std::size_t m = 0; m < every_class().size(); ++m)
         for (const int scheme : schemes_of(m, GetParam())) {

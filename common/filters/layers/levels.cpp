@@ -106,7 +106,10 @@ Result compute_pyramid(const Layer& layer, const ComputePyramidOptions& options,
     Result result;
     require_usable(layer.mesh);
     InputCounts counts = count_input(layer.mesh, 0);  // first: it needs as much memory as a part of the pyramid
-    const auto pyramid = pyramid_of(layer, options.pyramid, session, result.report);
+    const auto pyramid =
+        pyramid_of(layer, options.pyramid, session.pyramids, session.progress, result.report, session.let_mesh_go);
+    const bool gone = layer.mesh.positions.empty();
+    const auto position = [&](Index v) { return gone ? session.position(v) : layer.mesh.positions[v]; };
     counts.non_manifold_vertices = pyramid->hierarchy().irregular;
     const std::vector<LevelInfo>& levels = pyramid->levels();
     std::vector<double> level, vertices, wavelength, rms_detail;
@@ -127,7 +130,7 @@ Result compute_pyramid(const Layer& layer, const ComputePyramidOptions& options,
     result.report.add("vertices", vertices);
     result.report.add("wavelength", wavelength, "mesh units");
     result.report.add("rms_detail", rms_detail, "mesh units");
-    result.report.add("reconstruction_error", pyramid->reconstruction_error(layer.mesh.positions), "mesh units");
+    result.report.add("reconstruction_error", pyramid->reconstruction_error(position), "mesh units");
     report_counts(counts, result.report);
     return result;
 }
