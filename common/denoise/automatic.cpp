@@ -3,9 +3,11 @@
 #include "denoise/choice.h"
 #include "denoise/found_noise.h"
 #include "denoise/lattice.h"
+#include "denoise/outliers.h"
 #include "denoise/sample.h"
 #include "denoise/varying_noise.h"
 #include "measure/measure.h"
+#include "normals/guided_normals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +18,7 @@ namespace {
 constexpr double least_step = 0.03;  ///< edge lengths: a lattice that is finer makes no noise to speak of
 constexpr double terraces = 0.7;  ///< rounding to steps as large as edges errs alike side by side: for it, as if more
 constexpr double farthest = 4;    ///< deviations: Gaussian noise moves one vertex in 16,000 farther
+constexpr int spike_steps = 3;    ///< of guided normals, for what was put back
 constexpr Index patches = 12;     ///< that large meshes are chosen for on
 /// What `fast` measures on, and how many of the former patches it chooses on.
 constexpr Index fast_patches = 6, fast_size = 4000;
@@ -167,15 +170,25 @@ Plan sampled_plan(const Faces& faces, const Positions& positions, const Incidenc
     return plan;
 }
 
+/// Outliers are put back before anything is measured; creases come back to them.
+Positions outliers_back(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
+                        Index& count) {
+    std::vector<std::uint8_t> moved;
+    Positions after = without_outliers(faces, positions, at, near, moved);
+    count = static_cast<Index>(std::count(moved.begin(), moved.end(), 1));
+    return count > 0 ? guided_steps(faces, after, at, face_graph(faces, at), spike_steps, moved) : after;
+}
+
 }  // namespace
 
-Positions denoise_automatically(const Faces& faces, const Positions& positions, const AutomaticOptions& options,
+Positions denoise_automatically(const Faces& faces, const Positions& given, const AutomaticOptions& options,
                                 AutomaticStats& stats, const Tick& tick) {
     stats = AutomaticStats();
     tick(0, "Finding neighbours");
-    const Index count = static_cast<Index>(positions.size());
+    const Index count = static_cast<Index>(given.size());
     const Incidence at = vertex_faces(faces, count);
     const Neighbours near = neighbours(faces, at);
+    const Positions positions = outliers_back(faces, given, at, near, stats.outliers);
     const double edge = stats.edge = mean_edge_length(faces, positions);
     std::optional<double> step;
     if (!options.deviation) step = lattice_step(positions, least_step * edge);

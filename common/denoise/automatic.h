@@ -15,6 +15,7 @@ struct AutomaticOptions {
 
 /// What was found and done, for the report.
 struct AutomaticStats {
+    Index outliers = 0;                    ///< single vertices far off, put back before all else
     Index spikes = 0;                      ///< vertices found to be impulses and set back first
     double edge = 0;                       ///< mean edge length of the result
     double deviation = 0;                  ///< of the noise along the normals, mesh units

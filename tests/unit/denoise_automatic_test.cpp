@@ -5,6 +5,8 @@
 #include "denoise_fixtures.h"
 #include "normals/spikes.h"
 
+#include <set>
+
 namespace multires {
 
 using namespace fixtures;
@@ -244,6 +246,45 @@ TEST(AutomaticDenoise, TakesGiantImpulsesBackAmongSmallOnes) {
         mesh.positions[v] = truth.positions[v] + (v % 400 == 50 ? 5 : -5) * edge_of(truth) * normal[v];
     const Positions after = *run(layer_of(mesh)).positions;
     EXPECT_LT(rms_distance(truth.positions, after), 0.3 * rms_distance(truth.positions, mesh.positions));
+}
+
+TEST(AutomaticDenoise, PutsSingleOutliersBackAndMovesNothingElse) {
+    for (const Mesh& clean : {shapes::irregular_sphere(4000), shapes::scan(4000), shapes::block(10)})
+        for (const bool along_normals : {true, false}) {
+            Mesh mesh = clean;
+            const Positions normal = fixtures::vertex_normals(mesh);
+            const double edge = edge_of(mesh);
+            shapes::Random random(3);
+            std::set<std::size_t> moved;
+            while (moved.size() < 16)
+                moved.insert(static_cast<std::size_t>(random.uniform() * static_cast<double>(normal.size())));
+            for (const std::size_t v : moved) {
+                const Vec3 any(gaussian(random), gaussian(random), gaussian(random));
+                mesh.positions[v] +=
+                    (4 + 20 * random.uniform()) * edge * (along_normals ? normal[v] : any.normalized());
+            }
+            const Result result = run(layer_of(mesh));
+            const Positions& after = *result.positions;
+            for (std::size_t v = 0; v < normal.size(); ++v)
+                EXPECT_TRUE(moved.count(v) > 0 || after[v] == mesh.positions[v]);
+            EXPECT_GE(count(result.report, "spikes_removed"), 13) << along_normals;
+            EXPECT_LT(rms_distance(clean.positions, after), 0.5 * rms_distance(clean.positions, mesh.positions));
+        }
+}
+
+TEST(AutomaticDenoise, KeepsTipsThatTheShapeHas) {
+    Mesh cone = shapes::plane(40, {0.2, 0, 1});  // grown from the plate in rings
+    for (Vec3& p : cone.positions) p.z() = std::max(0.0, 1 - 8 * (p - Vec3(0.5, 0.5, 0)).norm());
+    Mesh studs = shapes::plane(40, {0, 0, 1});  // of one vertex to five
+    for (Index i = 0; i < 60; ++i) {
+        const Index row = i / 10;
+        const Vec3 middle(0.1 + 0.08 * (i % 10), 0.1 + 0.14 * row, 0);
+        for (Vec3& p : studs.positions)
+            p.z() =
+                std::max(p.z(), 4 * (0.02 + 0.0004 * i) - 4 * Vec3(p.x() - middle.x(), p.y() - middle.y(), 0).norm());
+    }
+    for (const Mesh& mesh : {cone, studs})
+        EXPECT_EQ(run(layer_of(mesh)).positions.value_or(mesh.positions), mesh.positions);
 }
 
 TEST(AutomaticDenoise, TakesRoundedCoordinatesBackWithinTheirCells) {

@@ -52,12 +52,17 @@ void tell(const AutomaticStats& stats, const Shares& shares, Report& report) {
             text("The edges follow the details, as those of a coarse mesh do and noise does not: %.0f %% of what "
                  "looks like noise is taken for shape.",
                  100 * (1 - stats.by_edges)));
+    if (stats.outliers > 0)
+        report.say(text(stats.outliers == 1 ? "%d single vertex far off the surface was put back."
+                                            : "%d single vertices far off the surface were put back.",
+                        static_cast<int>(stats.outliers)));
     if (stats.spikes > 0)
         report.say(text("%d vertices were impulses and were set back.", static_cast<int>(stats.spikes)));
     if (stats.weights.size() == 0) {
-        report.say(std::string(stats.spikes > 0 ? "No other noise was found" : "No noise was found") +
+        const bool some = stats.outliers + stats.spikes > 0;
+        report.say(std::string(some ? "No other noise was found" : "No noise was found") +
                    (stats.deviation > 1e-3 * stats.edge ? " that can be told from the shape" : "") +
-                   (stats.spikes > 0 ? "." : "; the mesh stays as it is."));
+                   (some ? "." : "; the mesh stays as it is."));
         return;
     }
     if (stats.voxels)
@@ -104,7 +109,7 @@ Positions by_automatic(const Layer& layer, const DenoiseOptions& o, double given
     report.add("noise_in_all_directions", stats.all_directions);
     report.add("noise_along_axis", stats.axis);
     report.add("rounding_step", stats.step, "mesh units");
-    report.add("spikes_removed", static_cast<int>(stats.spikes));
+    report.add("spikes_removed", static_cast<int>(stats.outliers + stats.spikes));
     report.add("estimated_rms_before", stats.rms_before, "mesh units");
     report.add("estimated_rms_after", stats.rms_after, "mesh units");
     report.add("share_low_pass", shares.linear);
