@@ -90,10 +90,10 @@ double tilted(double share, double deviation_in_edges) {
     return 1 + share * std::pow(std::min(deviation_in_edges, 0.3), 2);
 }
 
-/// The blends of the classes of noise, by their shares in each vertex.
+/// The blends of the classes of noise or kinds of surface, by their shares in each vertex.
 LocalWeights local_weights(const Choice& choice, const NoiseClasses& classes, const std::vector<double>& deviation) {
-    std::vector<std::array<double, 3>> share;
-    for (std::size_t v = 0; choice.of_class.size() > 1 && v < deviation.size(); ++v)
+    std::vector<std::array<double, 3>> share = choice.kinds;
+    for (std::size_t v = 0; choice.kinds.empty() && choice.of_class.size() > 1 && v < deviation.size(); ++v)
         share.push_back(classes.shares(deviation[v]));
     return {choice.of_class, std::move(share)};
 }
@@ -200,7 +200,8 @@ Positions denoise_automatically(const Faces& faces, const Positions& given, cons
     if (!found.is_certain(edge)) return found.start;
 
     tick(0.25, "Choosing");
-    const Assumed assumed = assumed_of(found, options.strength, edge);
+    Assumed assumed = assumed_of(found, options.strength, edge);
+    assumed.by_kind = !fast;
     const NoiseClasses classes(found.varies ? assumed.deviation : std::vector<double>());
     const Choice choice = choose(faces, shifted(found.start, within, Shares()), at, near, assumed, classes,
                                  fast ? fast_patches : patches, [&](double f) { tick(0.25 + 0.4 * f, "Choosing"); });
@@ -211,6 +212,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& given, cons
     stats.weights = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(all_candidates().size()));
     stats.weights.head(choice.weights.size()) = choice.weights;
     stats.all_directions = within.noisy;
+    stats.kinds = !choice.kinds.empty();
     // What keeps creases follows the normals.
     const double height = tilted(1 - sharp_share(choice.weights), stats.deviation / edge),
                  side = tilted(1.5, stats.deviation / edge);

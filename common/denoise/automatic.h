@@ -22,6 +22,7 @@ struct AutomaticStats {
     double least_deviation = 0;            ///< where it is least, by place
     double most_deviation = 0;             ///< where it is largest
     bool varies = false;                   ///< clearly, from place to place
+    bool kinds = false;                    ///< two kinds of surface have blends of their own; weights are means
     bool all_directions = false;           ///< the noise was found within the surface too
     double by_edges = 1;                   ///< share of what looked like noise: see SurfaceNoise
     bool axis = false;                     ///< it goes along one axis of space

@@ -34,6 +34,14 @@ std::vector<Candidate> all_candidates() {
     return all;
 }
 
+double sharp_share(const Eigen::VectorXd& weights) {
+    const std::vector<Candidate> all = all_candidates();
+    double share = 0;
+    for (Eigen::Index k = 0; k < weights.size(); ++k)
+        if (all[static_cast<std::size_t>(k)].keeps_creases()) share += weights[k];
+    return share;
+}
+
 LocalWeights::LocalWeights(const std::vector<Eigen::VectorXd>& of_class, std::vector<std::array<double, 3>> share)
     : share_(std::move(share)) {
     for (const Eigen::VectorXd& weights : of_class) {
@@ -243,7 +251,7 @@ void CandidateMaker::add_guided(Responses& responses, const std::function<void(d
     }
 }
 
-void CandidateMaker::add_heights(const LocalWeights& weights, Smoother smoother, std::vector<double>& height) const {
+void CandidateMaker::add_heights(const LocalWeights& weights, Smoother smoother, bool probed, const Add& add) const {
     const std::vector<Candidate> all = all_candidates();
     std::size_t levels = 0;
     bool shrunk = false;
@@ -254,11 +262,9 @@ void CandidateMaker::add_heights(const LocalWeights& weights, Smoother smoother,
     }
     if (shrunk) levels = low_pass_steps.size();
     if (levels == 0) return;
-    const LowPasses low = low_passes(smoother, levels, shrunk ? Channels::surface_noise : Channels::surface);
+    const Channels unprobed = shrunk ? Channels::surface_noise : Channels::surface;
+    const LowPasses low = low_passes(smoother, levels, probed ? Channels::surface_probe_noise : unprobed);
     const std::vector<Band> split = shrunk ? bands(low) : std::vector<Band>();
-    const auto add = [&](std::size_t k, const Response& moves) {
-        for (std::size_t v = 0; v < height.size(); ++v) height[v] += weights.at(k, v) * moves[2 * v];
-    };
     for (std::size_t k = 0; k < all.size(); ++k) {
         if (!weights.any(k)) continue;
         if (all[k].is(Family::low_pass, smoother)) add(k, of_low_pass(low[all[k].index]));
@@ -266,11 +272,35 @@ void CandidateMaker::add_heights(const LocalWeights& weights, Smoother smoother,
     }
 }
 
+std::vector<Response> CandidateMaker::responses_like(const std::vector<Eigen::VectorXd>& blends,
+                                                     const std::function<void(double)>& tick) const {
+    const LocalWeights weights(blends, {});
+    std::vector<Response> out(blends.size(), Response(2 * probe_.size(), 0));
+    const auto add_to = [&](Response& to, double weight, const Response& own) {
+        for (std::size_t i = 0; weight > 0 && i < to.size(); ++i) to[i] += weight * own[i];
+    };
+    for (const Smoother smoother : smoothers) {
+        add_heights(weights, smoother, true, [&](std::size_t k, const Response& own) {
+            for (std::size_t b = 0; b < blends.size(); ++b)
+                add_to(out[b], blends[b][static_cast<Eigen::Index>(k)], own);
+        });
+        tick(0.1 * (1 + static_cast<double>(smoother)));
+    }
+    const double push = field_push * side();
+    const Positions after = field(positions_, field_strength.back(), [&](double f) { tick(0.3 + 0.35 * f); });
+    const Positions other = field(pushed(push), field_strength.back(), [&](double f) { tick(0.65 + 0.35 * f); });
+    const Response own = response_of(after, other, push);
+    for (std::size_t b = 0; b < blends.size(); ++b) add_to(out[b], sharp_share(blends[b]), own);
+    return out;
+}
+
 Positions CandidateMaker::blend(const LocalWeights& weights, const std::function<void(double)>& tick) const {
     const std::vector<Candidate> all = all_candidates();
     std::vector<double> height(probe_.size(), 0);
     for (const Smoother smoother : smoothers) {
-        add_heights(weights, smoother, height);
+        add_heights(weights, smoother, false, [&](std::size_t k, const Response& moves) {
+            for (std::size_t v = 0; v < height.size(); ++v) height[v] += weights.at(k, v) * moves[2 * v];
+        });
         tick(0.15 + 0.12 * static_cast<double>(smoother));
     }
     Positions out = positions_;

@@ -33,10 +33,15 @@ struct Candidate {
     Smoother smoother = Smoother::equal;  ///< of low passes and Wiener filters
 
     bool is(Family f, Smoother s) const { return family == f && smoother == s; }
+    bool keeps_creases() const { return family == Family::normal_field || family == Family::guided_normals; }
 };
 
 /// All of them, in the order of their weights.
 std::vector<Candidate> all_candidates();
+
+/// How much of a blend are candidates that keep creases: normal fields and guided normals.
+/// @param weights  of all_candidates(); those of candidates missing at the end are 0
+double sharp_share(const Eigen::VectorXd& weights);
 
 /// Weights of the candidates: of each class of vertices, and how much each vertex is of each class.
 class LocalWeights {
@@ -81,6 +86,11 @@ public:
     /// Those of the guided normals: they begin where the normal field ends.
     void add_guided(Responses& responses, const std::function<void(double)>& tick) const;
 
+    /// Nearly the move and response of some blends, in much less time: for all that keeps creases stands the last of
+    /// the normal fields.
+    std::vector<Response> responses_like(const std::vector<Eigen::VectorXd>& blends,
+                                         const std::function<void(double)>& tick) const;
+
     /// Where a blend of candidates puts the vertices. Candidates of weight 0 are not made.
     Positions blend(const LocalWeights& weights, const std::function<void(double)>& tick) const;
 
@@ -95,8 +105,10 @@ private:
     LowPasses spatial(std::size_t levels) const;
     std::vector<double> samples(Channels channels) const;  ///< heights that the low passes start with
     Response of_low_pass(const std::vector<double>& low) const;
-    /// Adds the linear candidates and those made of them; `height` #V.
-    void add_heights(const LocalWeights& weights, Smoother smoother, std::vector<double>& height) const;
+    using Add = std::function<void(std::size_t candidate, const Response& moves)>;
+    /// Makes the linear candidates that have weights, and those made of them.
+    /// @param probed  with their answer to the probe
+    void add_heights(const LocalWeights& weights, Smoother smoother, bool probed, const Add& add) const;
     /// What lies between two low passes, of two or three channels.
     struct Band {
         std::vector<double> detail;  ///< #V by channels

@@ -14,23 +14,23 @@ struct Assumed {
     bool stairs = false;            ///< flat parts and creases are noise
     bool large = false;             ///< the mesh: see drop_small()
     int normal_steps = 3;           ///< see normal_steps()
+    bool by_kind = true;            ///< two kinds of surface may have a blend each
 };
 
 /// The blend that is chosen, and what is expected of it; mesh units.
 struct Choice {
-    Eigen::VectorXd weights;                ///< mean of those of the classes
-    std::vector<Eigen::VectorXd> of_class;  ///< by noise: see NoiseClasses
-    double before = 0, after = 0;           ///< mean square error of the heights
-    double gain = 0;                        ///< what it falls by at least
+    Eigen::VectorXd weights;                   ///< mean of those of the classes
+    std::vector<Eigen::VectorXd> of_class;     ///< by noise: see NoiseClasses; or two by the kind of surface
+    std::vector<std::array<double, 3>> kinds;  ///< #V: shares of the kinds of surface; empty if there is only one
+    double before = 0, after = 0;              ///< mean square error of the heights
+    double gain = 0;                           ///< what it falls by at least
     double safe = 1;  ///< share of the best move that gains even with as little noise as is certain
 };
 
-/// How much of a blend are candidates that keep creases: normal fields and guided normals.
-/// @param weights  of all_candidates(); those of candidates missing at the end are 0
-double sharp_share(const Eigen::VectorXd& weights);
-
 /// The convex blend of all_candidates() and the mesh itself with the least estimated risk (risk.h) of the normals, as
-/// long as distances gain, too. Meshes of more than `whole_up_to` vertices (sample.h) are chosen for on patches.
+/// long as distances gain, too. Where the noise is the same everywhere there are two such blends, each where it has the
+/// smaller risk (kinds.h), if that certainly gains. Meshes of more than `whole_up_to` vertices (sample.h) are chosen
+/// for on patches.
 /// @param patches  how many at most
 /// @param tick     called with the fraction done; may throw to stop
 /// Cost: linear, that of all candidates twice

@@ -78,6 +78,7 @@ void tell(const AutomaticStats& stats, const Shares& shares, Report& report) {
     if (stats.varies)
         report.say(text("It varies over the surface, from %.3g to %.3g edge lengths, and so does what is done.",
                         stats.least_deviation / stats.edge, stats.most_deviation / stats.edge));
+    if (stats.kinds) report.say("There are two kinds of surface, and each has a blend of its own.");
     report.say(text("Blend: %.0f %% low pass, %.0f %% local Wiener filter, %.0f %% normal field (piecewise smooth), "
                     "%.0f %% guided normals after it (creases), %.0f %% unchanged.",
                     100 * shares.linear, 100 * shares.wiener, 100 * shares.field, 100 * shares.guided,
