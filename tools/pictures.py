@@ -414,17 +414,51 @@ def sheet_of_cows(panels, all_vertices, f, path, closer=(0, 0, 1)):
     rendering.contact_sheet(panels, camera, 360, close_ups=False).save(path, "WEBP", quality=82, method=6)
 
 
-def rounded(path):
-    """The bunny with coordinates rounded to 0.7 edge lengths, Taubin's filter tuned with the truth, and Denoise."""
-    truth, f = read(BUNNY)
-    noisy_v = with_noise(truth, f, "quantised", 0.2, 1)
+def beside_taubin(title, noisy_v, truth, f, up, path):
+    """A noisy mesh, Taubin's filter tuned with the truth, Denoise, and the truth."""
     angle = lambda v: normal_angles(v, f, truth, f).mean()  # noqa: E731
     taubin = min((run(setting, noisy_v, f)[0] for setting in TAUBIN), key=angle)
     ours = run(Setting(DENOISE), noisy_v, f)[0]
-    shown = (("Rounded", noisy_v), ("Taubin, tuned with the truth", taubin), ("Denoise, no parameter", ours))
+    shown = ((title, noisy_v), ("Taubin, tuned with the truth", taubin), ("Denoise, no parameter", ours))
     panels = [Panel(title, f"normals off by {angle(v):.1f} degrees", v, f) for title, v in shown]
     panels.append(Panel("Truth", "", truth, f))
-    rendering.contact_sheet(panels, rendering.three_quarter_camera(truth, f), 300).save(path, "WEBP", quality=80, method=6)
+    camera = rendering.three_quarter_camera(truth, f, up=up)
+    rendering.contact_sheet(panels, camera, 300).save(path, "WEBP", quality=80, method=6)
+
+
+def rounded(path):
+    """The bunny with coordinates rounded to 0.7 edge lengths."""
+    truth, f = read(BUNNY)
+    beside_taubin("Rounded", with_noise(truth, f, "quantised", 0.2, 1), truth, f, "y", path)
+
+
+def rock(n=130, around=110):
+    """A rough rock on a turned plinth."""
+    z = np.linspace(0, 4, n)
+    turned = [z < 0.4, z < 0.8, z < 1.4, z < 1.7]
+    radius = np.select(turned, [1.1, 0.95, 0.75, 1.0], 0.8 + 0.25 * np.sin(1.2 * (z - 1.7)))
+    rough = np.clip((z - 2.1) / 0.25 + 0.5, 0, 1)
+    angle = np.arange(around) * 2 * np.pi / around
+    a, height = np.meshgrid(angle, z)
+    random = np.random.default_rng(3)
+    bumps = np.zeros_like(a)
+    for length in 0.2 * 1.5 ** np.arange(6):
+        for _ in range(10):
+            turns, phase = np.round(random.normal() / length), random.uniform(0, 7)
+            bumps += 0.03 * length * np.cos(turns * a + 4 * random.normal() / length * height + phase)
+    r = radius[:, None] + rough[:, None] * bumps
+    v = np.stack([r * np.cos(a), r * np.sin(a), height], axis=-1).reshape(-1, 3)
+    here = np.arange(n * around).reshape(n, around)
+    beside = np.roll(here, -1, axis=1)
+    lower = np.stack([here[:-1], beside[:-1], beside[1:]], axis=-1)
+    upper = np.stack([here[:-1], beside[1:], here[1:]], axis=-1)
+    return v, np.concatenate([lower.reshape(-1, 3), upper.reshape(-1, 3)])
+
+
+def kinds(path):
+    """Two kinds of surface on one mesh."""
+    truth, f = rock()
+    beside_taubin("Noise of 0.2 edge lengths", with_noise(truth, f, "normals", 0.2, 1), truth, f, "z", path)
 
 
 def voxels(path):
@@ -555,12 +589,13 @@ def grid_picture(name, path):
 
 
 SPECIAL = {"compute_multires_pyramid": levels, "compute_multires_watermark": displacement}
-ALONE = {"giraffe": giraffe, "cow-leg": cow_leg, "denoise-rounded": rounded, "denoise-voxels": voxels}
+ALONE = {"giraffe": giraffe, "cow-leg": cow_leg, "denoise-rounded": rounded, "denoise-voxels": voxels,
+         "denoise-kinds": kinds}  # fmt: skip
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--only", nargs="*", help="names of filters, top, giraffe, cow-leg, denoise-rounded or denoise-voxels")
+    parser.add_argument("--only", nargs="*", help="names of filters, top, giraffe, cow-leg, denoise-rounded, denoise-voxels or denoise-kinds")
     parser.add_argument("--output", type=pathlib.Path, default=FOLDER)
     arguments = parser.parse_args()
     load_plugins()
