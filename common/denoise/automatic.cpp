@@ -7,7 +7,6 @@
 #include "denoise/sample.h"
 #include "denoise/varying_noise.h"
 #include "measure/measure.h"
-#include "normals/guided_normals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +17,6 @@ namespace {
 constexpr double least_step = 0.03;  ///< edge lengths: a lattice that is finer makes no noise to speak of
 constexpr double terraces = 0.7;  ///< rounding to steps as large as edges errs alike side by side: for it, as if more
 constexpr double farthest = 4;    ///< deviations: Gaussian noise moves one vertex in 16,000 farther
-constexpr int spike_steps = 3;    ///< of guided normals, for what was put back
 constexpr Index patches = 12;     ///< that large meshes are chosen for on
 /// What `fast` measures on, and how many of the former patches it chooses on.
 constexpr Index fast_patches = 6, fast_size = 4000;
@@ -176,7 +174,7 @@ Positions outliers_back(const Faces& faces, const Positions& positions, const In
     std::vector<std::uint8_t> moved;
     Positions after = without_outliers(faces, positions, at, near, moved);
     count = static_cast<Index>(std::count(moved.begin(), moved.end(), 1));
-    return count > 0 ? guided_steps(faces, after, at, face_graph(faces, at), spike_steps, moved) : after;
+    return count > 0 ? with_creases(faces, after, at, moved) : after;
 }
 
 }  // namespace

@@ -15,7 +15,6 @@
 namespace multires {
 namespace {
 
-constexpr int spike_steps = 3;              ///< of guided normals, for what impulses met: creases come back
 constexpr double certain_if_varying = 0.8;  ///< share of the square of noise that varies
 
 /// True if the vertices that moved stand out of the surface far more than what is left does: a rough surface has spikes
@@ -79,6 +78,12 @@ std::vector<double> deviations(const Faces& faces, const Positions& positions, c
     return out;
 }
 
+Positions with_creases(const Faces& faces, const Positions& positions, const Incidence& at,
+                       const std::vector<std::uint8_t>& moves) {
+    constexpr int steps = 3;
+    return guided_steps(faces, positions, at, face_graph(faces, at), steps, moves);
+}
+
 Positions without_impulses(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
                            Index& spikes) {
     Positions start = without_spikes(faces, positions, at, spikes);
@@ -86,7 +91,7 @@ Positions without_impulses(const Faces& faces, const Positions& positions, const
     if (spikes == 0) return positions;
     std::vector<std::uint8_t> moves(positions.size());
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = start[i] != positions[i];
-    start = guided_steps(faces, start, at, face_graph(faces, at), spike_steps, moves);
+    start = with_creases(faces, start, at, moves);
     spikes = put_back_jags(positions, near, start);
     return start;
 }

@@ -2,6 +2,7 @@
 
 #include "denoise/noise.h"
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -33,6 +34,11 @@ struct FoundNoise {
 
 /// Steps of Taubin's low pass after which the normals serve as directions: the stronger the noise, the more.
 int normal_steps(double deviation_in_edges);
+
+/// Creases come back to vertices that were put back into a smooth surface: a few steps of guided normals.
+/// @param moves  #V: those vertices; no others move
+Positions with_creases(const Faces& faces, const Positions& positions, const Incidence& at,
+                       const std::vector<std::uint8_t>& moves);
 
 /// The positions without impulses, unless the surface is rough everywhere.
 /// @param[out] spikes  vertices set back

@@ -91,17 +91,13 @@ private:
     /// Calls with(face, normal) for the faces across the star's outer edges, without far vertices.
     template <class With>
     void for_planes_across(Index v, const With& with) const {
-        for (const Index f : at_[v]) {
-            const auto [a, b] = outer_edge(f, v);
-            for (const Index h : at_[a]) {
-                const Face& g = faces_[h];
-                const auto has = [&](Index w) { return std::find(g.begin(), g.end(), w) != g.end(); };
-                if (!has(b) || has(v) || std::any_of(g.begin(), g.end(), [&](Index w) { return far_[w]; })) continue;
+        for (const Index f : at_[v])
+            for_faces_across(faces_, at_, f, v, [&](const Face& g) {
+                if (std::any_of(g.begin(), g.end(), [&](Index w) { return far_[w]; })) return;
                 const Vec3 n = (p_[g[1]] - p_[g[0]]).cross(p_[g[2]] - p_[g[0]]);
                 const double length = n.norm();
                 if (length > 0) with(g, n / length);
-            }
-        }
+            });
     }
 
     /// Least cosine between the normals of the star with v at a place and this normal.

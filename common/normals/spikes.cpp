@@ -104,26 +104,12 @@ private:
                 if (w != v) with(w);
     }
 
-    /// Calls with(face) for the faces that share the edge of f across from v, but not v.
-    template <class With>
-    void across(Index f, Index v, const With& with) const {
-        Index edge[2], found = 0;
-        for (const Index w : faces_[f])
-            if (w != v && found < 2) edge[found++] = w;
-        if (found < 2 || edge[0] == edge[1]) return;
-        for (const Index h : at_[edge[0]]) {
-            const Face& g = faces_[h];
-            if (std::find(g.begin(), g.end(), edge[1]) != g.end() && std::find(g.begin(), g.end(), v) == g.end())
-                with(g);
-        }
-    }
-
     Offset offset_of(Index v, Workspace& space) const {
         std::vector<double>& heights = space.heights;
         heights.clear();
         Offset offset;
         for (const Index f : at_[v])
-            across(f, v, [&](const Face& g) {
+            for_faces_across(faces_, at_, f, v, [&](const Face& g) {
                 const Vec3& a = p_[g[0]];
                 const Vec3 n = (p_[g[1]] - a).cross(p_[g[2]] - a);
                 const double length = n.norm();
