@@ -38,7 +38,7 @@ fi
 # usable for programs that run.
 wanted=$(sha256sum requirements.txt)
 if [ "$(cat .venv/installed 2>/dev/null)" != "$wanted" ]; then
-    /usr/bin/python3 -m venv .venv
+    /usr/bin/python3 -m venv "$(readlink -m .venv)" # which may be a link to one that is shared; venv refuses links
     .venv/bin/pip install -q -r requirements.txt
     echo "$wanted" >.venv/installed
 fi
