@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 
+import numpy as np
 import pymeshlab
 from measuring import BUILD, BUNNY, load_plugins
 
@@ -55,7 +56,27 @@ def meshes(folder):
     names = ("irregular_sphere", "plane", "block", "terrain", "moebius_band", "bowtie", "several_components",
              "degenerate_faces")
     found = {p.stem: p for p in pathlib.Path(folder).glob("*.ply")}
-    return {"bunny": BUNNY, **{n: found[n] for n in names if n in found}}
+    return {"bunny": BUNNY, **{n: found[n] for n in names if n in found}, "cut": cut(found["irregular_sphere"])}
+
+
+def cut(path):
+    """A closed mesh with a hole at its top, cut along a seam from it: vertices on the seam are there twice."""
+    ms = pymeshlab.MeshSet(verbose=False)
+    ms.load_new_mesh(str(path))
+    vertices, faces = ms.current_mesh().vertex_matrix(), ms.current_mesh().face_matrix()
+    middle = vertices[faces].mean(axis=1) - vertices.mean(axis=0)
+    size = np.ptp(vertices, axis=0) / 2
+    open_ = middle[:, 2] < 0.8 * size[2]
+    faces, beyond = faces[open_], middle[open_, 0] > 0
+    twice = np.intersect1d(faces[beyond], faces[~beyond])
+    number = np.arange(len(vertices))
+    number[twice] = len(vertices) + np.arange(len(twice))
+    faces[beyond] = number[faces[beyond]]
+    ms.add_mesh(pymeshlab.Mesh(np.vstack([vertices, vertices[twice]]), faces))
+    ms.meshing_remove_unreferenced_vertices()
+    out = path.with_name(f"cut_{path.name}")
+    ms.save_current_mesh(str(out), save_vertex_normal=False)
+    return out
 
 
 def result(path, name, options):
