@@ -2,8 +2,11 @@
 
 #include "base/array.h"
 #include "base/index.h"
+#include "base/parallel.h"
 
+#include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace multires {
 
@@ -33,6 +36,35 @@ public:
         // offset_[b + 1] is where the next item of bucket b goes and, in the end, where the bucket ends.
         visit([&](Index b, const Item& item) { item_[offset_[b + 1]++] = item; });
         offset_.pop_back();
+    }
+
+    /// The first in parallel, with an Index for each part and bucket meanwhile.
+    /// @param visit  calls put(bucket, item) for every item of a part, in order, parts in theirs; called twice for each
+    template <class Visit>
+    static Buckets in_parts(Index buckets, Index parts, const Visit& visit) {
+        Buckets out;
+        Array<Index> next(static_cast<std::size_t>(parts) * buckets);  // the size, then the place of a part's next item
+        const auto of = [&](Index part) { return next.data() + static_cast<std::size_t>(part) * buckets; };
+        const auto count = [&](Index part) {
+            Index* const size = of(part);
+            std::fill_n(size, buckets, 0);
+            visit(part, [&](Index b, const Item&) { ++size[b]; });
+        };
+        const auto place = [&](Index part) {
+            Index* const at = of(part);
+            visit(part, [&](Index b, const Item& item) { out.item_[at[b]++] = item; });
+        };
+        parallel_for(parts, count, 1);
+        out.offset_.resize(buckets + 1);
+        Index sum = 0;
+        for (Index b = 0; b < buckets; ++b) {
+            out.offset_[b] = sum;
+            for (Index part = 0; part < parts; ++part) sum += std::exchange(of(part)[b], sum);
+        }
+        out.offset_[buckets] = sum;
+        out.item_.resize(sum);
+        parallel_for(parts, place, 1);
+        return out;
     }
 
     /// The numbers 0 .. items-1 by bucket_of(number).

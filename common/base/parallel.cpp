@@ -55,8 +55,9 @@ public:
         inside_loop = false;
     }
 
+    std::atomic<int> helpers{0};  ///< working now; changes under the pool's mutex
     // Guarded by the pool's mutex:
-    int helpers = 0, joined = 0;  ///< working now, and so far
+    int joined = 0;  ///< helpers so far
     std::exception_ptr failure;
 
 private:
@@ -98,6 +99,11 @@ public:
         if (threads > 1) {
             std::unique_lock<std::mutex> lock(mutex_);
             job_ = nullptr;
+            if (job.helpers > 0) {  // for the rest of a chunk
+                lock.unlock();
+                wait_awake([&] { return job.helpers.load(std::memory_order_acquire) == 0; });
+                lock.lock();
+            }
             done_.wait(lock, [&] { return job.helpers == 0; });
         }
         if (job.failure) std::rethrow_exception(job.failure);
@@ -107,6 +113,12 @@ private:
     /// What the C++ library allocates for exceptions at a thread's first access, with room for what malloc needs to.
     using Reserve = std::unique_ptr<char[]>;
     static constexpr std::size_t reserve_bytes = 1 << 16;
+
+    /// Loops come in quick succession: looks for a while before the caller goes to sleep.
+    template <class Happened>
+    static void wait_awake(const Happened& happened) {
+        for (int spin = 0; spin < 4000 && !happened(); ++spin) std::atomic_signal_fence(std::memory_order_seq_cst);
+    }
 
     /// Waits for each to be ready: while it allocates, nobody else does. glibc ends the process if that fails.
     void start(int helpers, std::unique_lock<std::mutex>& lock) {
@@ -134,9 +146,7 @@ private:
         done_.notify_all();
         unsigned seen = 0;
         for (;;) {
-            // Loops come in quick succession: look for the next one for a while before going to sleep.
-            for (int spin = 0; spin < 4000 && published_.load(std::memory_order_acquire) == seen; ++spin)
-                std::atomic_signal_fence(std::memory_order_seq_cst);
+            wait_awake([&] { return published_.load(std::memory_order_acquire) != seen; });
             std::unique_lock<std::mutex> lock(mutex_);
             wake_.wait(lock, [&] { return published_.load(std::memory_order_relaxed) != seen; });
             seen = published_.load(std::memory_order_relaxed);

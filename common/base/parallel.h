@@ -29,10 +29,17 @@ void parallel_chunks(Index count, Index grain, const Body& body) {
 
 /// Calls body(i) for all i of [0, count), in chunks.
 template <class Body>
-void parallel_for(Index count, const Body& body, Index grain = 1024) {
+void parallel_for(Index count, const Body& body, Index grain) {
     parallel_chunks(count, grain, [&](Index begin, Index end) {
         for (Index i = begin; i < end; ++i) body(i);
     });
+}
+
+/// The same in chunks that are soon done, so that no thread waits long for the last one; few on one thread.
+template <class Body>
+void parallel_for(Index count, const Body& body) {
+    constexpr Index few = 1024;
+    parallel_for(count, body, count <= few ? few : few / 4);
 }
 
 }  // namespace multires

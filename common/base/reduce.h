@@ -1,10 +1,12 @@
 #pragma once
 
+#include "base/array.h"
 #include "base/parallel.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <vector>
 
 namespace multires {
@@ -32,6 +34,45 @@ T chunked_fold(std::size_t count, const Add& add) {
         T part{};
         for (std::size_t i = begin; i < end; ++i) add(part, i);
         return part;
+    });
+}
+
+/// Calls body(i, rank) for all i of [0, count), in parallel; the rank is how many elements before i there are that
+/// counts(i) is true for. Both should be free of branches on what is hard to predict.
+/// @param counts  bool(Index)
+/// @returns       how many there are in all
+template <class Counts, class Body>
+Index ranked_for(Index count, const Counts& counts, const Body& body) {
+    constexpr Index chunk = 4096;
+    std::vector<Index> before((count + chunk - 1) / chunk + 1, 0);
+    parallel_chunks(count, chunk, [&](Index begin, Index end) {
+        Index sum = 0;
+        for (Index i = begin; i < end; ++i) sum += counts(i);
+        before[begin / chunk + 1] = sum;
+    });
+    std::partial_sum(before.begin(), before.end(), before.begin());
+    parallel_chunks(count, chunk, [&](Index begin, Index end) {
+        Index rank = before[begin / chunk];
+        for (Index i = begin; i < end; ++i) {
+            body(i, rank);
+            rank += counts(i);
+        }
+    });
+    return before.back();
+}
+
+/// Turns sizes into offsets: each element becomes the sum of those up to it. In parallel.
+inline void add_up(Array<Index>& sizes) {
+    constexpr Index chunk = 4096;
+    const Index count = static_cast<Index>(sizes.size());
+    std::vector<Index> before((count + chunk - 1) / chunk + 1, 0);
+    parallel_chunks(count, chunk, [&](Index begin, Index end) {
+        before[begin / chunk + 1] = std::accumulate(sizes.begin() + begin, sizes.begin() + end, Index{0});
+    });
+    std::partial_sum(before.begin(), before.end(), before.begin());
+    parallel_chunks(count, chunk, [&](Index begin, Index end) {
+        Index sum = before[begin / chunk];
+        for (Index i = begin; i < end; ++i) sizes[i] = sum += sizes[i];
     });
 }
 

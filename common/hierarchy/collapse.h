@@ -64,7 +64,7 @@ private:
 
 /// Quadric of a vertex: its faces, and for a boundary vertex planes that stand on the boundary edges.
 inline Quadric vertex_quadric(Index v, const Ring& ring, const Positions& p, double boundary_weight = 1) {
-    Quadric q;
+    Quadric q{};
     if (!ring.regular()) return q;
     const Index triangles = ring.closed() ? ring.size : ring.size - 1;
     for (Index j = 0; j < triangles; ++j) {

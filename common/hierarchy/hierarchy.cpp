@@ -1,6 +1,7 @@
 #include "hierarchy/hierarchy.h"
 
 #include "base/parallel.h"
+#include "base/reduce.h"
 #include "hierarchy/independent_sets.h"
 #include "hierarchy/parts.h"
 #include "hierarchy/renumber.h"
@@ -49,13 +50,15 @@ Array<Index> places_of(const Step& step, const Array<Index>& coarser) {
 /// Local vertices with places in [begin, end), in local order. That order runs along the surface if the input's does,
 /// so rows in it find their neighbours near each other.
 Array<Index> rows_between(const Array<Index>& place, Index begin, Index end) {
-    Array<Index> rows(end - begin + 1);  // one more: all write, which are in is hard to predict
-    Index* at = rows.data();
-    for (std::size_t i = 0; i < place.size(); ++i) {
-        *at = static_cast<Index>(i);
-        at += (place[i] >= begin) & (place[i] < end);
-    }
-    rows.resize(end - begin);
+    const auto size = static_cast<std::size_t>(end - begin);
+    Array<Index> rows(size);
+    const auto in = [&](Index i) {
+        return static_cast<std::size_t>(place[i]) - static_cast<std::size_t>(begin) < size;
+    };
+    ranked_for(static_cast<Index>(place.size()), in, [&](Index i, Index rank) {
+        Index nowhere;  // which are in is hard to predict: no branch
+        *(in(i) ? &rows[rank] : &nowhere) = i;
+    });
     return rows;
 }
 
@@ -65,14 +68,15 @@ Rings room_for_odd(const std::vector<Step>& steps, const HierarchyOptions& optio
     odd.first = steps.back().rings.rows();
     const Index rows = steps[0].rings.rows() - odd.first;
     odd.kind.resize(rows);
-    odd.offset.assign(rows + 1, 0);
+    odd.offset.resize(rows + 1);
+    odd.offset[0] = 0;
     for (const Step& step : steps) {
         const Index n = step.rings.rows(), even = n - static_cast<Index>(step.parent.size());
         parallel_for(n, [&](Index i) {
             if (step.code[i] < 0) odd.offset[even + ~step.code[i] - odd.first + 1] = step.rings.size(i);
         });
     }
-    for (Index r = 0; r < rows; ++r) odd.offset[r + 1] += odd.offset[r];
+    add_up(odd.offset);
     odd.neighbor.resize(odd.offset.back());
     if (options.flaps) odd.flap.resize(odd.neighbor.size());
     if (!steps[0].rings.feature.empty()) odd.feature.resize(odd.neighbor.size());
@@ -84,7 +88,7 @@ Rings even_rings(const Rings& rings, const Array<Index>& place, Index coarse, bo
     const Array<Index> rows = rows_between(place, 0, coarse);
     Rings even = renumbered(rings, rows, place, rings.rows(), flaps);
     even.vertices.resize(rows.size());
-    for (std::size_t r = 0; r < rows.size(); ++r) even.vertices[r] = place[rows[r]];
+    parallel_for(even.rows(), [&](Index r) { even.vertices[r] = place[rows[r]]; });
     return even;
 }
 
@@ -112,8 +116,7 @@ Hierarchy assemble(std::vector<Step> steps, const HierarchyOptions& options) {
             Step& step = steps[s];
             const Index fine = step.rings.rows(), even = fine - static_cast<Index>(step.parent.size());
             const Array<Index> odd = rows_between(place[s], even, fine);
-            for (std::size_t i = 0; i < step.parent.size(); ++i)
-                h.parent[even + static_cast<Index>(i)] = place[s][step.parent[i]];
+            parallel_for(fine - even, [&](Index i) { h.parent[even + i] = place[s][step.parent[i]]; });
             renumber_into(h.odd, even - base, step.rings, odd, place[s], even);
             if (s > first) level.cuts.push_back(fine - base);
         }
@@ -135,9 +138,10 @@ bool jumps_about(const Rings& rings) {
     const Index n = rings.rows();
     const Index near = std::max<Index>(2048, static_cast<Index>(2 * std::sqrt(static_cast<double>(n))));
     if (n <= 2 * near) return false;
-    std::int64_t far = 0;
-    for (Index i = 0; i < n; ++i)
-        for (Index j = 0; j < rings.size(i); ++j) far += std::abs(rings.begin(i)[j] - i) > near;
+    const auto far = chunked_fold<std::int64_t>(n, [&](std::int64_t& count, std::size_t row) {
+        const Index i = static_cast<Index>(row);
+        for (Index j = 0; j < rings.size(i); ++j) count += std::abs(rings.begin(i)[j] - i) > near;
+    });
     return 10 * far > static_cast<std::int64_t>(rings.neighbor.size());
 }
 
@@ -149,8 +153,10 @@ Array<Index> sort_for_caches(Rings& rings, Positions& positions) {
     const Index n = rings.rows();
     Array<Index> place(n);
     Positions moved(n);
-    for (Index i = 0; i < n; ++i) place[order[i]] = i;
-    parallel_for(n, [&](Index i) { moved[i] = positions[order[i]]; });
+    parallel_for(n, [&](Index i) {
+        place[order[i]] = i;
+        moved[i] = positions[order[i]];
+    });
     positions = std::move(moved);
     rings = renumbered(rings, order, place, n, false);
     return order;
@@ -216,9 +222,8 @@ Simplified mesh_of_rest(const Mesh& mesh, const Array<Index>& became, const Norm
 
 /// See Hierarchy::beside.
 Index vertices_beside(const Rings& rings) {
-    DisjointSets parts = parts_of(rings);
-    Array<Index> size(rings.rows(), 0);  // of the part whose root a vertex is
-    for (Index v = 0; v < rings.rows(); ++v) ++size[parts.find(v).root];
+    Array<Index> size(rings.rows(), 0);  // of the part of which a vertex is the least
+    for (const Index part : parts_of(rings)) ++size[part];
     Index sum = 0, largest = 0;
     for (const Index vertices : size) {
         if (vertices > 1) sum += std::min<Index>(vertices, 4);

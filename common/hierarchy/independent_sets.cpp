@@ -74,7 +74,7 @@ private:
     Index v_;
     const Ring& ring_;
     const HierarchyOptions& options_;
-    Quadric quadric_;
+    Quadric quadric_{};
 };
 
 /// True if the boundary at v is coarser than the surface beside it: it waits until that has caught up, or its details
@@ -347,14 +347,13 @@ double mean_edge(const Rings& rings, const Positions& p) {
 void number(const Array<Index>& parent, Index odd, Step& step) {
     const Index n = static_cast<Index>(parent.size());
     step.code.resize(n);
-    step.parent.resize(odd + 1);  // an even vertex writes, too, where the next odd one will
-    for (Index i = 0, odds = 0; i < n; ++i) {
-        const bool is_odd = parent[i] >= 0;
-        step.code[i] = is_odd ? ~odds : i - odds;
-        step.parent[odds] = parent[i];
-        odds += is_odd;
-    }
     step.parent.resize(odd);
+    const auto is_odd = [&](Index i) { return parent[i] >= 0; };
+    ranked_for(n, is_odd, [&](Index i, Index odds) {
+        Index nowhere;
+        step.code[i] = is_odd(i) ? ~odds : i - odds;
+        *(is_odd(i) ? &step.parent[odds] : &nowhere) = parent[i];
+    });
 }
 
 /// Where the rings of even vertices begin after a step.
@@ -362,13 +361,12 @@ void number(const Array<Index>& parent, Index odd, Step& step) {
 Array<Index> offsets_after(const Step& step, const Array<Index>& degree) {
     const Index n = static_cast<Index>(degree.size());
     Array<Index> offset(n - static_cast<Index>(step.parent.size()) + 1);
-    for (Index i = 0, to = 0, at = 0; i < n; ++i) {  // no branch, as above
-        const bool even = step.code[i] >= 0;
-        offset[to] = at;
-        to += even;
-        at += even ? degree[i] : 0;
-        offset[to] = at;
-    }
+    offset[0] = 0;
+    parallel_for(n, [&](Index i) {
+        Index nowhere;
+        *(step.code[i] >= 0 ? &offset[step.code[i] + 1] : &nowhere) = degree[i];
+    });
+    add_up(offset);
     return offset;
 }
 

@@ -6,9 +6,10 @@ namespace multires {
 
 /// Area-weighted sum of squared distances to planes (Garland and Heckbert 1997), as a function of the offset d from
 /// the vertex that owns it: d'Ad + 2b'd + c. Keeping the origin at the vertex avoids cancellation far from zero.
+/// Quadric q{} is zero; those of an Array stay unset.
 struct Quadric {
-    double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-    double bx = 0, by = 0, bz = 0, c = 0;
+    double xx, xy, xz, yy, yz, zz;
+    double bx, by, bz, c;
 
     /// Adds the plane through the owner with normal n (any length): |n| weights the squared distance.
     void add_plane(const Vec3& n, double length) {

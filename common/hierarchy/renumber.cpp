@@ -1,6 +1,7 @@
 #include "hierarchy/renumber.h"
 
 #include "base/parallel.h"
+#include "base/reduce.h"
 #include "mesh/adjacency.h"
 
 #include <algorithm>
@@ -12,7 +13,9 @@ Rings renumbered(const Rings& rings, const Array<Index>& from, const Array<Index
     Rings out;
     out.kind.resize(rows);
     out.offset.resize(rows + 1);
-    for (Index r = 0; r < rows; ++r) out.offset[r + 1] = out.offset[r] + rings.size(from[r]);
+    out.offset[0] = 0;
+    parallel_for(rows, [&](Index r) { out.offset[r + 1] = rings.size(from[r]); });
+    add_up(out.offset);
     out.neighbor.resize(out.offset[rows]);
     if (flaps) out.flap.resize(out.offset[rows]);
     if (!rings.feature.empty()) out.feature.resize(out.offset[rows]);

@@ -3,6 +3,7 @@
 #include "base/angles.h"
 #include "base/buckets.h"
 #include "base/parallel.h"
+#include "base/reduce.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,11 +17,16 @@ struct RingEdge {
 };
 
 Buckets<RingEdge> wedges_by_vertex(const Mesh& mesh) {
-    return {static_cast<Index>(mesh.positions.size()), [&](const auto& put) {
-                for (const Face& f : mesh.faces)
-                    if (!repeats_an_index(f))
-                        for (int k = 0; k < 3; ++k) put(f[k], RingEdge{f[(k + 1) % 3], f[(k + 2) % 3]});
-            }};
+    const std::size_t faces = mesh.faces.size();
+    const int parts = faces < 8192 ? 1 : std::min(thread_count(), 4);
+    const auto visit = [&](Index part, const auto& put) {
+        for (std::size_t f = faces * part / parts; f < faces * (part + 1) / parts; ++f) {
+            const Face& face = mesh.faces[f];
+            if (!repeats_an_index(face))
+                for (int k = 0; k < 3; ++k) put(face[k], RingEdge{face[(k + 1) % 3], face[(k + 2) % 3]});
+        }
+    };
+    return Buckets<RingEdge>::in_parts(static_cast<Index>(mesh.positions.size()), parts, visit);
 }
 
 /// Chains the wedges of one vertex into a ring, ordering them in place; gives what the neighbourhood is.
@@ -137,8 +143,9 @@ Rings rings_of(const Mesh& mesh, bool surface) {
     const Index n = static_cast<Index>(mesh.positions.size());
     Rings rings;
     rings.kind.resize(n);
-    rings.offset.assign(n + 1, 0);
-    parallel_chunks(n, 1024, [&](Index begin, Index end) {
+    rings.offset.resize(n + 1);
+    rings.offset[0] = 0;
+    parallel_chunks(n, 256, [&](Index begin, Index end) {
         Chainer chainer;
         for (Index i = begin; i < end; ++i) {
             RingEdge* const w = wedges[i].begin();
@@ -153,7 +160,7 @@ Rings rings_of(const Mesh& mesh, bool surface) {
             rings.offset[i + 1] = has_ring ? count + (kind == RingKind::open) : 0;
         }
     });
-    for (Index i = 0; i < n; ++i) rings.offset[i + 1] += rings.offset[i];
+    add_up(rings.offset);
     rings.neighbor.resize(rings.offset[n]);
     parallel_for(n, [&](Index i) {
         const auto w = wedges[i];

@@ -17,14 +17,14 @@ constexpr std::size_t most_levels = 64;
 
 class Parts {
 public:
-    explicit Parts(const Hierarchy& h) : h_(h), sets_(parts_of(h.base)), size_(h.base.rows(), 0) {}
+    explicit Parts(const Hierarchy& h) : h_(h), base_part_(parts_of(h.base)), size_(h.base.rows(), 0) {}
 
     bool one() {
         Index found = -1;
         for (Index i = 0; i < h_.base.rows(); ++i) {
             if (h_.base.kind[i] == RingKind::isolated) continue;
-            if (found >= 0 && sets_.find(i).root != found) return false;
-            found = sets_.find(i).root;
+            if (found >= 0 && base_part_[i] != found) return false;
+            found = base_part_[i];
         }
         return true;
     }
@@ -34,7 +34,7 @@ public:
         Array<Index> part(h_.vertices());  // parents come before their children
         std::vector<Index> of_vertex(h_.vertices());
         for (Index p = 0; p < h_.vertices(); ++p) {
-            part[p] = p < h_.base.rows() ? sets_.find(p).root : part[h_.parent[p]];
+            part[p] = p < h_.base.rows() ? base_part_[p] : part[h_.parent[p]];
             of_vertex[h_.order[p]] = part[p];
             ++size_[part[p]];
         }
@@ -64,7 +64,7 @@ private:
     }
 
     const Hierarchy& h_;
-    DisjointSets sets_;
+    Array<Index> base_part_;   ///< see parts_of()
     std::vector<Index> size_;  ///< by root
 };
 

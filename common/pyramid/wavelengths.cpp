@@ -14,7 +14,7 @@ namespace {
 /// The parts that the base is in.
 class Parts {
 public:
-    explicit Parts(const Rings& base) : base_(base), sets_(parts_of(base)) {}
+    explicit Parts(const Rings& base) : base_(base), part_(parts_of(base)) {}
 
     /// Mean length of the edges in the parts that vertices of the last level went to.
     double mean_edge(const Hierarchy& h) {
@@ -23,11 +23,11 @@ public:
         for (Index p = last.coarse; p < last.fine; ++p) {
             Index to = h.parent[p];
             while (to >= last.coarse) to = h.parent[to];
-            taken[sets_.find(to).root] = 1;
+            taken[part_[to]] = 1;
         }
         Mean mean;
         for (Index i = 0; i < base_.rows(); ++i) {
-            if (!taken[sets_.find(i).root]) continue;
+            if (!taken[part_[i]]) continue;
             for (Index e = base_.offset[i]; e < base_.offset[i + 1]; ++e)
                 mean.add((h.positions[base_.neighbor[e]] - h.positions[i]).norm());
         }
@@ -36,7 +36,7 @@ public:
 
 private:
     const Rings& base_;
-    DisjointSets sets_;
+    Array<Index> part_;  ///< see parts_of()
 };
 
 /// Mean length of the edges at the vertices taken between two levels, when they are taken.

@@ -38,6 +38,24 @@ TEST(Buckets, HoldEveryItemOnceInItsOrder) {
     EXPECT_EQ(Buckets<Index>(0, 0, [](Index) { return 0; }).size(), 0);
 }
 
+TEST(Buckets, AreTheSameInAnyNumberOfParts) {
+    shapes::Random random(4);
+    std::vector<Index> bucket_of(1000);
+    for (Index& b : bucket_of) b = static_cast<Index>(random.bits() % 70);
+    const Buckets<Index> whole(71, 1000, [&](Index i) { return bucket_of[i]; });
+    for (const int threads : {1, 3})
+        for (const Index parts : {1, 2, 3, 4}) {
+            const fixtures::Threads scope(threads);
+            const auto buckets = Buckets<Index>::in_parts(71, parts, [&](Index part, const auto& put) {
+                for (Index i = 1000 * part / parts; i < 1000 * (part + 1) / parts; ++i) put(bucket_of[i], i);
+            });
+            ASSERT_EQ(buckets.size(), whole.size());
+            EXPECT_EQ(buckets.items(), whole.items());
+            for (Index b = 0; b < buckets.size(); ++b)
+                EXPECT_TRUE(std::equal(buckets[b].begin(), buckets[b].end(), whole[b].begin(), whole[b].end()));
+        }
+}
+
 TEST(DisjointSets, RandomJoinsGiveTheComponentsAndSidesOfAColouring) {
     constexpr Index n = 200;
     shapes::Random random(5);
@@ -129,6 +147,26 @@ TEST(Fold, SumsMeansAndLengthsAreThoseOfOnePass) {
     weighted.add(9, 1);
     weighted.add(1, 3);
     EXPECT_DOUBLE_EQ(weighted.rms(), std::sqrt(3.0));
+}
+
+TEST(Sums, RanksAndOffsetsAreThoseOfOnePass) {
+    shapes::Random random(12);
+    for (const Index count : {0, 1, 4096, 20000})
+        for (const int threads : {1, 2}) {
+            const fixtures::Threads scope(threads);
+            Array<Index> sizes(count), rank(count, -1);
+            for (Index& size : sizes) size = static_cast<Index>(random.bits() % 9);
+            std::vector<Index> offset(count), ranks(count);
+            std::partial_sum(sizes.begin(), sizes.end(), offset.begin());
+            Index ranked = 0;
+            for (Index i = 0; i < count; ++i) ranks[i] = ranked, ranked += sizes[i] > 4;
+            EXPECT_EQ(ranked_for(
+                          count, [&](Index i) { return sizes[i] > 4; }, [&](Index i, Index r) { rank[i] = r; }),
+                      ranked);
+            EXPECT_TRUE(std::equal(rank.begin(), rank.end(), ranks.begin(), ranks.end()));
+            add_up(sizes);
+            EXPECT_TRUE(std::equal(sizes.begin(), sizes.end(), offset.begin(), offset.end()));
+        }
 }
 
 }  // namespace multires

@@ -2,6 +2,7 @@
 #include "hierarchy/collapse.h"
 #include "hierarchy/fresh_costs.h"
 #include "hierarchy/hierarchy.h"
+#include "hierarchy/parts.h"
 
 #include "hierarchy_checks.h"
 #include "operator_fixtures.h"
@@ -36,6 +37,36 @@ void expect_same(const Hierarchy& a, const Hierarchy& b) {
 }
 
 }  // namespace
+
+TEST(Parts, AreWhatEdgesJoinByTheirLeastVertex) {
+    std::vector<std::pair<std::string, Mesh>> meshes = every_class();
+    shapes::Random random(1);
+    Mesh scan = shapes::scan(3000);
+    const std::vector<Index> name = permutation(static_cast<Index>(scan.positions.size()), random);
+    for (Face& face : scan.faces)
+        for (Index& v : face) v = name[v];
+    meshes.emplace_back("a scan in random order", scan);
+    for (const auto& [what, mesh] : meshes) {
+        SCOPED_TRACE(what);
+        const Rings rings = vertex_rings(mesh);
+        std::vector<Index> least(rings.rows());
+        std::iota(least.begin(), least.end(), 0);
+        for (bool changed = true; changed;) {
+            changed = false;
+            for (Index v = 0; v < rings.rows(); ++v)
+                for (Index j = 0; j < rings.size(v); ++j) {
+                    Index &a = least[v], &b = least[rings.begin(v)[j]];
+                    changed |= a != b;
+                    a = b = std::min(a, b);
+                }
+        }
+        for (const int threads : {1, 4}) {
+            const Threads scope(threads);
+            const Array<Index> part = parts_of(rings);
+            EXPECT_TRUE(std::equal(part.begin(), part.end(), least.begin(), least.end()));
+        }
+    }
+}
 
 TEST_P(EveryHierarchy, KeepsRingsTopologyAndNormals) {
     const auto [grouping, options] = groupings()[GetParam()];

@@ -29,7 +29,7 @@ struct Planes {
 
 struct Owned {
     Vec3 owner;
-    Quadric quadric;
+    Quadric quadric{};
     Planes planes;
 };
 
@@ -68,13 +68,13 @@ TEST(Quadric, IsTheSumOfSquaredDistancesAfterMoves) {
 }
 
 TEST(Quadric, WeighsByTheLengthOfItsNormals) {
-    Quadric q;
+    Quadric q{};
     q.add_plane({0, 0, 2}, 2);
     q.add_plane({0, 3, 0}, 3);
     EXPECT_DOUBLE_EQ(q.weight(), 5);
     EXPECT_DOUBLE_EQ(q.at({7, 1, 0}), 3);
     EXPECT_DOUBLE_EQ(q.at({7, 0, 2}), 8);
-    Quadric moved;
+    Quadric moved{};
     moved.add_moved(q, {0, 0, 1});
     EXPECT_DOUBLE_EQ(moved.weight(), 5);
     EXPECT_DOUBLE_EQ(moved.at({0, 0, 1}), 0);
