@@ -9,12 +9,13 @@
 namespace multires {
 namespace {
 
-constexpr int local_steps = 6;    ///< averaging of the energies, and so of the directions
-constexpr int reweighted = 8;     ///< steps of the fit
-constexpr double explains = 0.1;  ///< share by which the deviations from the fit must fall, and what chance adds
-constexpr double by_chance = 3, by_chance_if_few = 6.5;  ///< by the root of #V; the latter is all that few tell of
+constexpr int local_steps = 6;        ///< averaging of the energies, and so of the directions
+constexpr int reweighted = 8;         ///< steps of the fit
+constexpr double explains = 0.1;      ///< share by which the deviations from the fit must fall
+constexpr double by_chance = 3;       ///< by the root of #V: share of them that chance takes away
 constexpr double stands_out = 2;      ///< of the deviation along the axis, to that in the next direction
 constexpr double faced = 0.1;         ///< mean squared cosine of the normals to the axis, at least
+constexpr double least_within = 0.5;  ///< share of the noise that the places within the surface show
 constexpr double least_share = 0.05;  ///< of the mean energy: what is less counts no more than this in the fit
 
 constexpr int columns = 7;  ///< six of the covariance, the bends
@@ -93,6 +94,25 @@ Fit fitted(const std::vector<Row>& row, const std::vector<double>& energy, doubl
     return fit;
 }
 
+/// Noise along an axis crosses the surface as far as what is seen of it along the normals tells: the share of that
+/// which third differences within the surface show. It is 1 for such noise, about 0 for any other. Weighed by the
+/// variances along the normals, for where there is little of it hardly anything is known of what crosses.
+double share_within(const AxisNoise& noise, const Neighbours& near, const Positions& p, const Array<Vec3>& normal,
+                    const std::vector<Index>& inner) {
+    const double own = noise.across * noise.across, more = std::max(0.0, noise.deviation * noise.deviation - own);
+    Positions detail = p;
+    for (int order = 0; order < 3; ++order) detail = detail_of(near, detail);
+    double product = 0, square = 0;
+    for (const Index v : inner) {
+        const Vec3& n = normal[v];
+        const double along = n.dot(detail[v]), facing = n.dot(noise.axis);
+        const Vec3 expected = along * more * facing * (noise.axis - facing * n);  // times the variance
+        product += (own + more * facing * facing) * expected.dot(detail[v]);
+        square += expected.squaredNorm();
+    }
+    return square > 0 ? product / square : 0;
+}
+
 /// The share of moves within the surface after which its second differences are least.
 double evening_share(const Neighbours& near, const Array<Vec3>& normal, const Positions& p, const Positions& moves) {
     const Positions places = detail_of(near, detail_of(near, p)), moved = detail_of(near, detail_of(near, moves));
@@ -108,13 +128,14 @@ double evening_share(const Neighbours& near, const Array<Vec3>& normal, const Po
 
 }  // namespace
 
-std::optional<AxisNoise> axis_noise(const Neighbours& near, const Array<Vec3>& normal, const std::vector<Index>& inner,
-                                    const Energies& energy, const Energies& bends) {
+std::optional<AxisNoise> axis_noise(const Neighbours& near, const Positions& p, const Array<Vec3>& normal,
+                                    const std::vector<Index>& inner, const Energies& energy, const Energies& bends) {
     const double mean = energy.mean();
     if (!(mean > 0)) return std::nullopt;
     const std::vector<Row> row = rows(near, normal, inner, bends);
-    const double root = std::sqrt(static_cast<double>(inner.size()));
-    const double least_explained = std::max(explains + by_chance / root, by_chance_if_few / root);
+    const double chance = by_chance / std::sqrt(static_cast<double>(inner.size()));
+    const bool few = chance > explains;  // the energies do not tell enough: the places must, too
+    const double least_explained = explains + (few ? 0 : chance);
     const Fit same = fitted(row, energy.field, mean, true), own = fitted(row, energy.field, mean, false);
     if (!own.found.allFinite() || !(own.deviation < (1 - least_explained) * same.deviation)) return std::nullopt;
     const Row& c = own.found;
@@ -129,7 +150,9 @@ std::optional<AxisNoise> axis_noise(const Neighbours& near, const Array<Vec3>& n
     if (facing.value() < faced) return std::nullopt;  // nothing is known of noise that runs along the surface
     // Where it bends, noise shows as bends, too.
     const double rest = std::max(0.1, 1 - std::max(0.0, c[columns - 1]));
-    return AxisNoise{axis, std::sqrt(values[2] / rest), std::sqrt(std::max(0.0, values[1]) / rest)};
+    const AxisNoise found{axis, std::sqrt(values[2] / rest), std::sqrt(std::max(0.0, values[1]) / rest)};
+    if (few && share_within(found, near, p, normal, inner) < least_within) return std::nullopt;
+    return found;
 }
 
 Sideways move_along(const AxisNoise& axis, double own, double error, const Neighbours& near, const Array<Vec3>& normal,

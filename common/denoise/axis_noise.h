@@ -32,11 +32,12 @@ Sideways move_along(const AxisNoise& axis, double own, double error, const Neigh
 
 /// Fits the energies of third details by n . C n + share x bends, with the normals n and a covariance C, the same
 /// everywhere, by least relative squares. It is an axis if this explains the energies better than the same noise
-/// for all directions does, and C has one large eigenvalue.
+/// for all directions does, and C has one large eigenvalue. Of few vertices (less than 900) the places within the
+/// surface must show what such noise makes of them, too.
 /// @param energy  of third details, of the vertices `inner`
 /// @param bends   of the same vertices
 /// Cost: linear
-std::optional<AxisNoise> axis_noise(const Neighbours& near, const Array<Vec3>& normal, const std::vector<Index>& inner,
-                                    const Energies& energy, const Energies& bends);
+std::optional<AxisNoise> axis_noise(const Neighbours& near, const Positions& p, const Array<Vec3>& normal,
+                                    const std::vector<Index>& inner, const Energies& energy, const Energies& bends);
 
 }  // namespace multires

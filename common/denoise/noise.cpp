@@ -123,7 +123,7 @@ Findings findings(const Faces& faces, const Positions& p, const Incidence& at, c
         whiteness.add(surface, near, inner, second, third, energy);
         const Energies bends = local_energies(near, local_squares(near, surface.detail(h)), inner);
         mean.without_bends += without_bends(energy, bends) / repeats;
-        if (repeat == 0) mean.axis = axis_noise(near, base.normal, inner, energy, bends);
+        if (repeat == 0) mean.axis = axis_noise(near, p, base.normal, inner, energy, bends);
         mean.mean += energy.mean() / repeats;
         mean.median += energy.quantile(0.5) / repeats;
         mean.lower += energy.quantile(0.3) / repeats;
