@@ -1,6 +1,6 @@
 #pragma once
 
-#include "denoise/neighbours.h"
+#include "denoise/values.h"
 
 namespace multires {
 
@@ -11,15 +11,14 @@ struct ValueImpulses {
     std::size_t count = 0;              ///< of these
 };
 
-/// Finds impulses by rank-ordered differences (Garnett et al. 2005): all neighbours of an impulse but one at most
-/// differ from it by much more than they differ from each other, and than neighbours around it do. Lines one vertex
-/// wide have two neighbours alike, so they stay. Replaced by the median of the neighbours that are none. Few hits are
-/// taken for spots, and so are hits where the surface bends more than elsewhere, as extremes of a curvature: nothing is
-/// changed.
-/// @param bend    #V: how much the surface bends, >= 0, in any unit
-/// @param values  #V by width
-/// Cost: O(entries log valence)
-ValueImpulses without_impulses(const Neighbours& near, const std::vector<double>& bend,
-                               const std::vector<double>& values, int width);
+/// Finds impulses by rank-ordered differences (Garnett et al. 2005), of values less what they rise around the vertex
+/// (value_slopes.h): all neighbours of an impulse but one at most differ from it by much more than they differ from
+/// each other, and than neighbours around it do. Lines one vertex wide have two neighbours alike, so they stay.
+/// Replaced by the median of the neighbours that are none, as they would be seen here. Few hits are taken for spots,
+/// and so are hits where the surface bends more, or its vertices have other numbers of neighbours, than elsewhere, as
+/// extremes of a curvature or numbers of faces: nothing is changed.
+/// @param values  #V by width, width at most 4
+/// Cost: O(entries log valence), about ten times value_slopes()
+ValueImpulses without_impulses(const ValueSurface& surface, const std::vector<double>& values, int width);
 
 }  // namespace multires

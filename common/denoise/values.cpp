@@ -330,7 +330,7 @@ ValueSurface::ValueSurface(const Mesh& mesh)
 ValueSurface::ValueSurface(const Mesh& mesh, const Incidence& at)
     : positions(mesh.positions), near(neighbours(mesh.faces, at)), variation(near) {
     weight = cotangent_weights(mesh.faces, at, near, mesh.positions);
-    const Array<Vec3> normal = vertex_normals(mesh.faces, mesh.positions);
+    normal = vertex_normals(mesh.faces, mesh.positions);
     bend.assign(mesh.positions.size(), 0);
     parallel_for(near.rows(), [&](Index v) {
         Vec3 sum = Vec3::Zero();
@@ -346,7 +346,7 @@ DenoisedValues denoise_values(const ValueSurface& surface, const std::vector<dou
     out.values = values;
     out.noise.assign(width, 0);
     if (!(strength > 0) || values.empty()) return out;
-    const ValueImpulses repaired = without_impulses(surface.near, surface.bend, values, width);
+    const ValueImpulses repaired = without_impulses(surface, values, width);
     out.impulses = repaired.count;
     out.values = repaired.values;
     tick(0.1);

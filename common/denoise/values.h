@@ -14,6 +14,7 @@ struct ValueSurface {
     const Positions& positions;
     Neighbours near;
     std::vector<double> weight;  ///< #entries: cotangent_weights()
+    Positions normal;            ///< #V by 3
     std::vector<double> bend;    ///< #V: length of the Laplacian of the places along the normal
     TotalVariation variation;
 

@@ -1,6 +1,8 @@
+#include "base/reduce.h"
 #include "denoise/field_noise.h"
 #include "denoise/total_variation.h"
 #include "denoise/value_impulses.h"
+#include "denoise/value_slopes.h"
 #include "denoise/value_steps.h"
 #include "mesh/cells.h"
 
@@ -79,29 +81,67 @@ TEST(TotalVariation, TurnsWithVectorsOfValues) {
     }
 }
 
-TEST(ValueImpulses, AreFoundOnPlainAndSlopingValues) {
+TEST(ValueSlopes, AreThoseOfThePlaneWhateverAFewValuesAre) {
     const Mesh mesh = shapes::irregular_sphere(4000);
-    const Neighbours near = neighbours_of(mesh);
-    const std::vector<double> bend(mesh.positions.size(), 1);
-    for (const bool plain : {true, false}) {
-        std::vector<double> truth;
-        for (const Vec3& p : mesh.positions) truth.push_back(plain ? 2 : 10 * p.x());
+    const ValueSurface surface(mesh);
+    std::vector<double> values;
+    for (const Vec3& p : mesh.positions) values.insert(values.end(), {3 * p.x() - p.z() + 5, 1});
+    for (std::size_t i = 0; i < values.size(); i += 22) values[i] += 50;
+    const std::vector<Vec3> slope = value_slopes(surface.near, mesh.positions, surface.normal, values, 2);
+    Mean off;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const Vec3 n = surface.normal[static_cast<Index>(i)], g(3, 0, -1);
+        off.add((slope[2 * i] - (g - g.dot(n) * n)).norm());
+        EXPECT_EQ(slope[2 * i + 1], Vec3(0, 0, 0));
+    }
+    EXPECT_LT(off.value(), 0.1);                                          // the sphere bends
+    const Mesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};  // too small to tell
+    const ValueSurface small(triangle);
+    EXPECT_EQ(value_slopes(small.near, triangle.positions, small.normal, {0, 1, 2}, 1),
+              std::vector<Vec3>(3, Vec3(0, 0, 0)));
+}
+
+TEST(ValueImpulses, AreFoundOnPlainSteepAndWavyValues) {
+    const Mesh mesh = shapes::irregular_sphere(4000);
+    const ValueSurface surface(mesh);
+    std::vector<double> plain, steep, wavy;
+    for (const Vec3& p : mesh.positions) {
+        plain.push_back(2);
+        steep.push_back(60 * p.x());  // three from vertex to vertex
+        wavy.push_back(8 * std::sin(8 * p.x()));
+    }
+    for (const std::vector<double>& truth : {plain, steep, wavy}) {
         std::vector<double> values = truth;
         std::size_t hit = 0;
         for (std::size_t i = 0; i < values.size(); ++i)
             if (i % 37 == 0) values[i] += i % 2 == 0 ? 7 : -7, ++hit;
-        const ValueImpulses found = without_impulses(near, bend, values, 1);
-        EXPECT_NEAR(static_cast<double>(found.count), static_cast<double>(hit), 0.05 * static_cast<double>(hit));
+        const ValueImpulses found = without_impulses(surface, values, 1);
+        EXPECT_NEAR(static_cast<double>(found.count), static_cast<double>(hit), 0.1 * static_cast<double>(hit));
         const std::vector<double> error = distance(found.values, truth);
-        EXPECT_LT(*std::max_element(error.begin(), error.end()), 7.5);
-        EXPECT_LT(std::accumulate(error.begin(), error.end(), 0.0), 0.1 * 7 * static_cast<double>(hit));
+        EXPECT_LT(std::accumulate(error.begin(), error.end(), 0.0), 0.2 * 7 * static_cast<double>(hit));
     }
 }
 
-TEST(ValueImpulses, AreNotFoundAmongNoiseTexturePatternsAndExtremesOfTheShape) {
+// A few, on a shape most of which bends nowhere: what they have around them is chance.
+TEST(ValueImpulses, AreFoundWhereTheyAreFew) {
+    const Mesh mesh = shapes::block(14);
+    const ValueSurface surface(mesh);
+    for (int seed = 0; seed < 20; ++seed) {
+        std::vector<double> values(mesh.positions.size(), 1);
+        shapes::Random random(seed);
+        std::size_t hit = 0;
+        for (double& x : values)
+            if (random.uniform(0, 1) < 0.013) x = 2, ++hit;
+        EXPECT_NEAR(static_cast<double>(without_impulses(surface, values, 1).count), static_cast<double>(hit), 4)
+            << seed;
+    }
+}
+
+TEST(ValueImpulses, AreNotFoundAmongNoiseTexturePatternsAndWhatBelongsToTheMesh) {
     const Mesh mesh = shapes::irregular_sphere(4000);
-    const Neighbours near = neighbours_of(mesh);
-    std::vector<double> noise, texture, checker, dotted, extremes, bend(mesh.positions.size(), 1);
+    ValueSurface surface(mesh);
+    std::fill(surface.bend.begin(), surface.bend.end(), 1);
+    std::vector<double> noise, texture, checker, dotted, extremes, valence;
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const Vec3& p = mesh.positions[i];
         noise.push_back(gaussian(static_cast<Index>(i), 1));
@@ -109,10 +149,11 @@ TEST(ValueImpulses, AreNotFoundAmongNoiseTexturePatternsAndExtremesOfTheShape) {
         checker.push_back(std::sin(25 * p.x()) * std::sin(25 * p.y()) > 0 ? 1 : 0);
         dotted.push_back(std::abs(p.z()) < 0.03 && i % 2 == 0 ? 1 : 0);
         extremes.push_back(i % 50 == 0 ? 1 : 0);
-        if (i % 50 == 0) bend[i] = 3;
+        if (i % 50 == 0) surface.bend[i] = 3;
+        valence.push_back(surface.near.size(static_cast<Index>(i)) > 7 ? 1 : 0);
     }
-    for (const std::vector<double>& values : {noise, texture, checker, dotted, extremes}) {
-        const ValueImpulses found = without_impulses(near, bend, values, 1);
+    for (const std::vector<double>& values : {noise, texture, checker, dotted, extremes, valence}) {
+        const ValueImpulses found = without_impulses(surface, values, 1);
         EXPECT_EQ(found.count, 0u);
         EXPECT_EQ(found.values, values);
     }
