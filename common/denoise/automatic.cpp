@@ -148,6 +148,8 @@ Plan plan_of(const Faces& faces, const Positions& positions, const Incidence& at
     tick(0.2, "Looking for noise within the surface");
     const FoundNoise& m = plan.found;
     plan.within = within_of(faces, m.start, near, m.within(options.strength), edge);
+    keep_in_planes(m.even, plan.within.smoothing);
+    keep_in_planes(m.even, plan.within.turning);
     return plan;
 }
 
@@ -164,7 +166,11 @@ Plan sampled_plan(const Faces& faces, const Positions& positions, const Incidenc
         m.varies = !m.deviation.empty();
     }
     if (!m.varies) m.deviation = deviations(faces, m.start, near, m.noise, edge);
+    if (m.rounded) m.even = even_places(faces, positions, at, *step, edge);
+    m.leave_even_places();
     plan.within = relax_within_surface(faces, m.start, near, m.within(options.strength), edge, &plan.within);
+    keep_in_planes(m.even, plan.within.smoothing);
+    keep_in_planes(m.even, plan.within.turning);
     return plan;
 }
 
@@ -203,7 +209,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& given, cons
     const NoiseClasses classes(found.varies ? assumed.deviation : std::vector<double>());
     const Choice choice = choose(faces, shifted(found.start, within, Shares()), at, near, assumed, classes,
                                  fast ? fast_patches : patches, [&](double f) { tick(0.25 + 0.4 * f, "Choosing"); });
-    if (!(choice.safe > 0)) return found.start;
+    if (!(choice.safe > 0 && choice.weights.sum() > 0)) return found.start;
     const Shares shares = safe_shares(within, choice);
     const Positions relaxed = shifted(found.start, within, shares);
     const CandidateMaker maker(faces, relaxed, at, near, assumed.normal_steps, assumed.deviation);
@@ -228,7 +234,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& given, cons
     stats.rms_before = std::sqrt(choice.before + (around ? within.before * within.before : 0) + along_axis.before);
     stats.rms_after =
         std::sqrt(height * height * choice.after + side * side * error_within(within, shares) + along_axis.after);
-    if (found.rounded) keep_within_cells(positions, found.voxels ? stats.step : stats.step / 2, after);
+    if (found.rounded) keep_within_cells(found.even, positions, found.voxels ? stats.step : stats.step / 2, after);
     stats.edge = mean_edge_length(faces, after);
     return after;
 }

@@ -69,7 +69,7 @@ Response CandidateMaker::of_low_pass(const std::vector<double>& low) const {
     const std::size_t count = probe_.size(), width = low.size() / count;
     Response out(2 * count, 0);
     for (std::size_t i = 0; i < count; ++i)
-        for (std::size_t c = 0; c < (width == 3 ? 2 : 1); ++c) out[2 * i + c] = low[width * i + c];
+        for (std::size_t c = 0; moves(i) && c < (width == 3 ? 2 : 1); ++c) out[2 * i + c] = low[width * i + c];
     return out;
 }
 
@@ -160,6 +160,7 @@ Response CandidateMaker::wiener(const LowPasses& low, const std::vector<Band>& b
     const std::size_t width = low[0].size() / probe_.size();
     Response out = of_low_pass(low.back());
     parallel_for(near_.rows(), [&](Index v) {
+        if (!moves(static_cast<std::size_t>(v))) return;
         for (const Band& band : bands) {
             // The gain 1 - noise / energy, and how it answers the probe: energy answers with twice the mean of d b.
             const double* detail = band.detail.data() + width * static_cast<std::size_t>(v);
@@ -181,10 +182,21 @@ const FaceGraph& CandidateMaker::graph() const {
     return *graph_;
 }
 
+std::vector<std::uint8_t> CandidateMaker::faces_without_noise() const {
+    std::vector<std::uint8_t> silent(faces_.size());
+    bool any = false;
+    for (std::size_t f = 0; f < silent.size(); ++f) {
+        silent[f] = std::all_of(faces_[f].begin(), faces_[f].end(), [&](Index v) { return !(deviation_[v] > 0); });
+        any |= silent[f] != 0;
+    }
+    return any ? silent : std::vector<std::uint8_t>();
+}
+
 Positions CandidateMaker::field(const Positions& from, double strength, const std::function<void(double)>& tick) const {
     NormalFieldOptions options;
     options.strength = strength;
     options.statistics = false;
+    options.silent = faces_without_noise();
     NormalFieldStats stats;
     const Array<Vec3> normals = denoise_normals(faces_, from, graph(), options, stats, tick);
     return stats.noise > normal_rounding ? fit_vertices(faces_, from, at_, normals, fit_steps) : from;
@@ -207,6 +219,7 @@ Positions CandidateMaker::pushed(double length) const {
 Response CandidateMaker::response_of(const Positions& after, const Positions& after_push, double length) const {
     Response out(2 * probe_.size());
     for (std::size_t i = 0; i < probe_.size(); ++i) {
+        if (!moves(i)) continue;
         out[2 * i] = normal_[i].dot(after[i] - positions_[i]);
         out[2 * i + 1] = normal_[i].dot(after_push[i] - after[i]) / length - probe_[i];
     }
@@ -304,10 +317,12 @@ Positions CandidateMaker::blend(const LocalWeights& weights, const std::function
         tick(0.15 + 0.12 * static_cast<double>(smoother));
     }
     Positions out = positions_;
-    for (std::size_t i = 0; i < out.size(); ++i) out[i] += height[i] * normal_[i];
+    for (std::size_t i = 0; i < out.size(); ++i)
+        if (moves(i)) out[i] += height[i] * normal_[i];
     Positions after;
     const auto add = [&](std::size_t k) {
-        for (std::size_t i = 0; i < out.size(); ++i) out[i] += weights.at(k, i) * (after[i] - positions_[i]);
+        for (std::size_t i = 0; i < out.size(); ++i)
+            if (moves(i)) out[i] += weights.at(k, i) * (after[i] - positions_[i]);
     };
     bool guided = false;
     for (std::size_t k = 0; k < all.size(); ++k) guided |= all[k].family == Family::guided_normals && weights.any(k);

@@ -68,7 +68,7 @@ private:
 class CandidateMaker {
 public:
     /// @param smoothing  steps of Taubin's low pass on the surface whose normals are directions, and cotangents weights
-    /// @param deviation  #V: of the noise along the normals, mesh units
+    /// @param deviation  #V: of the noise along the normals, mesh units; 0: the vertex stays
     CandidateMaker(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
                    int smoothing, const std::vector<double>& deviation);
 
@@ -120,6 +120,8 @@ private:
     /// Without a probe there is no answer to it.
     Response wiener(const LowPasses& low, const std::vector<Band>& bands, double severity) const;
     const FaceGraph& graph() const;
+    bool moves(std::size_t v) const { return deviation_[v] > 0; }  ///< where there is no noise nothing is done
+    std::vector<std::uint8_t> faces_without_noise() const;         ///< #F; empty: there are none
     Positions field(const Positions& from, double strength, const std::function<void(double)>& tick) const;
     double side() const;
     Positions pushed(double length) const;

@@ -2,7 +2,6 @@
 
 #include "base/median.h"
 #include "base/reduce.h"
-#include "denoise/lattice.h"
 #include "denoise/varying_noise.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
@@ -96,12 +95,21 @@ Positions without_impulses(const Faces& faces, const Positions& positions, const
     return start;
 }
 
+void FoundNoise::leave_even_places() {
+    if (!rounded || voxels) even = EvenPlaces();
+    for (std::size_t v = 0; v < even.silent.size(); ++v)
+        if (even.silent[v]) deviation[v] = 0;
+}
+
 FoundNoise find_noise(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
                       const std::optional<double>& step, const std::optional<double>& known, double edge,
                       const Tick& tick) {
     FoundNoise m;
     std::optional<SurfaceNoise> rounded;
-    if (step) rounded = rounding_noise(faces, positions, at, near, *step, edge);
+    if (step) {
+        m.even = even_places(faces, positions, at, *step, edge);
+        rounded = rounding_noise(faces, positions, at, near, m.even.silent, *step, edge);
+    }
     m.rounded = rounded.has_value();
     m.voxels = rounded && between_voxels(positions, *step);
     if (m.voxels) {
@@ -131,6 +139,7 @@ FoundNoise find_noise(const Faces& faces, const Positions& positions, const Inci
     }
     m.deviation = deviations(faces, m.start, near, m.noise, edge);
     m.along_normals = rms(m.deviation);
+    m.leave_even_places();
     m.certain = m.along_normals > 0 ? std::pow(m.noise.at_least / m.along_normals, 2) : 0;
     return m;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "denoise/lattice.h"
 #include "denoise/noise.h"
 
 #include <cstdint>
@@ -16,6 +17,7 @@ struct FoundNoise {
     bool varies = false;   ///< clearly, from place to place
     bool rounded = false;  ///< it is that of rounding to the lattice
     bool voxels = false;   ///< and the lattice that of voxels
+    EvenPlaces even;       ///< if it is rounded, but for voxels; or empty
     Index spikes = 0;
     Positions start;                ///< without impulses
     std::vector<double> deviation;  ///< #V: of the noise along the normals, mesh units
@@ -24,6 +26,7 @@ struct FoundNoise {
 
     /// @param edge  mean edge length
     bool is_certain(double edge) const { return certain * along_normals > 1e-4 * edge; }
+    void leave_even_places();  ///< there is no noise to be seen
     /// The noise as it is assumed within the surface.
     SurfaceNoise within(double strength) const {
         SurfaceNoise out = noise;

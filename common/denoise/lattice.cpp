@@ -12,6 +12,11 @@ namespace {
 constexpr double coordinate_rounding = 1e-6;  ///< of the largest coordinate: single precision, with a margin
 constexpr double off = 0.05;                  ///< how far a coordinate may be from the lattice, in steps
 
+/// How far a plane along the axes goes around its inner vertices at least, in mean edges and in steps: terraces are
+/// narrower.
+constexpr double edges_around = 2, steps_around = 3;
+constexpr double least_share = 0.05;  ///< of the vertices within such planes: what is less are terraces, too
+
 /// The different values of a coordinate, ascending.
 std::vector<double> levels(const Positions& p, int axis, double tolerance) {
     std::vector<double> values(p.size());
@@ -32,6 +37,43 @@ std::optional<double> fitted(const std::vector<double>& values, double step) {
         square += n * n;
     }
     return square > 0 ? product / square : step;
+}
+
+/// #F: a bit for each coordinate that the corners have in common.
+std::vector<std::uint8_t> axes_in_common(const Faces& faces, const Positions& positions, double step) {
+    std::vector<std::uint8_t> axes(faces.size());
+    parallel_for(static_cast<Index>(faces.size()), [&](Index f) {
+        const auto& [a, b, c] = faces[f];
+        const Vec3 &p = positions[a], &q = positions[b], &r = positions[c];
+        const Vec3 width = p.cwiseMax(q).cwiseMax(r) - p.cwiseMin(q).cwiseMin(r);
+        for (int axis = 0; axis < 3; ++axis)
+            if (width[axis] < step / 2) axes[f] |= 1U << axis;
+    });
+    return axes;
+}
+
+/// #V: along edges, how far it is to faces that have nothing in common, at most `enough`.
+/// @param[out] rings  passes that it took
+std::vector<double> distance_to_others(const Faces& faces, const Positions& positions, const Incidence& at,
+                                       const std::vector<std::uint8_t>& axes, double enough, int& rings) {
+    std::vector<double> distance(positions.size());
+    for (std::size_t v = 0; v < distance.size(); ++v) {
+        const auto around = at[static_cast<Index>(v)];
+        const bool inside = std::all_of(around.begin(), around.end(), [&](Index f) { return axes[f] != 0; });
+        distance[v] = inside ? enough : 0;
+    }
+    rings = 0;
+    for (bool changed = true; changed; ++rings) {
+        changed = false;
+        for (const Face& f : faces)
+            for (int k = 0; k < 3; ++k) {
+                const Index v = f[k], w = f[(k + 1) % 3];
+                const double length = (positions[v] - positions[w]).norm(), least = std::min(distance[v], distance[w]);
+                for (const Index u : {v, w})
+                    if (distance[u] > least + length) distance[u] = least + length, changed = true;
+            }
+    }
+    return distance;
 }
 
 }  // namespace
@@ -76,9 +118,43 @@ bool between_voxels(const Positions& positions, double step) {
     return std::find(may_be.begin(), may_be.end(), true) != may_be.end();
 }
 
-void keep_within_cells(const Positions& rounded, double farthest, Positions& positions) {
+EvenPlaces even_places(const Faces& faces, const Positions& positions, const Incidence& at, double step, double edge) {
+    const std::vector<std::uint8_t> axes = axes_in_common(faces, positions, step);
+    const double enough = std::max(edges_around * edge, steps_around * step);
+    int rings = 0;
+    const std::vector<double> distance = distance_to_others(faces, positions, at, axes, enough, rings);
+    EvenPlaces even{std::vector<std::uint8_t>(positions.size()), std::vector<std::uint8_t>(positions.size())};
+    for (std::size_t v = 0; v < distance.size(); ++v) even.silent[v] = distance[v] >= enough;
+    if (std::count(even.silent.begin(), even.silent.end(), 1) < least_share * static_cast<double>(positions.size())) {
+        std::fill(even.silent.begin(), even.silent.end(), std::uint8_t{0});
+        return even;
+    }
+    std::vector<std::uint8_t> inside(faces.size());
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        if (std::any_of(faces[f].begin(), faces[f].end(), [&](Index v) { return even.silent[v] != 0; }))
+            inside[f] = axes[f];
+    // From there each plane goes on as far as its faces do.
+    for (int ring = 0; ring <= rings; ++ring) {
+        for (std::size_t f = 0; f < faces.size(); ++f)
+            for (const Index v : faces[f]) even.axes[v] |= inside[f];
+        parallel_for(static_cast<Index>(faces.size()), [&](Index f) {
+            for (const Index v : faces[f]) inside[f] |= axes[f] & even.axes[v];
+        });
+    }
+    return even;
+}
+
+void keep_in_planes(const EvenPlaces& even, Positions& moves) {
+    for (std::size_t v = 0; v < even.axes.size(); ++v)
+        for (int axis = 0; axis < 3; ++axis)
+            if (even.axes[v] >> axis & 1U) moves[v][axis] = 0;
+}
+
+void keep_within_cells(const EvenPlaces& even, const Positions& rounded, double farthest, Positions& positions) {
     parallel_for(static_cast<Index>(positions.size()), [&](Index v) {
-        const Vec3 most = Vec3::Constant(farthest);
+        Vec3 most = Vec3::Constant(farthest);
+        for (int axis = 0; axis < 3 && !even.axes.empty(); ++axis)
+            if (even.axes[v] >> axis & 1U) most[axis] = 0;
         positions[v] = positions[v].cwiseMax(rounded[v] - most).cwiseMin(rounded[v] + most);
     });
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "mesh/mesh.h"
+#include "mesh/incidence.h"
 
 #include <optional>
 
@@ -16,7 +16,22 @@ std::optional<double> lattice_step(const Positions& positions, double least);
 /// @param step  lattice_step()
 bool between_voxels(const Positions& positions, double step);
 
-/// Moves each coordinate to within so much of where it was: the truth that was rounded to it is there.
-void keep_within_cells(const Positions& rounded, double farthest, Positions& positions);
+/// Planes along the axes, and creases between them, are as even after rounding as they were.
+struct EvenPlaces {
+    std::vector<std::uint8_t> silent;  ///< #V: 1 where there is nothing else nearby: nothing is seen of the errors
+    std::vector<std::uint8_t> axes;    ///< #V: a bit for each coordinate that is that of such a plane
+};
+
+/// Terraces of surfaces that run slowly across the lattice are narrow and few, and not taken for planes.
+/// @param edge  mean edge length
+/// Cost: linear in the faces, times the edges that 3 steps are long
+EvenPlaces even_places(const Faces& faces, const Positions& positions, const Incidence& at, double step, double edge);
+
+/// Leaves out of moves of vertices what takes them out of the planes.
+void keep_in_planes(const EvenPlaces& even, Positions& moves);
+
+/// Moves each coordinate to within so much of where it was, for the truth that was rounded to it is there, and vertices
+/// back into their planes.
+void keep_within_cells(const EvenPlaces& even, const Positions& rounded, double farthest, Positions& positions);
 
 }  // namespace multires

@@ -42,11 +42,12 @@ Smoothed smoothed(const Faces& faces, const Positions& p, const Neighbours& near
 }
 
 /// Vertices that are not on a rim; if there are none, all that have neighbours.
-std::vector<Index> inner_vertices(const Neighbours& near) {
+/// @param silent  #V: vertices that tell nothing; empty: none
+std::vector<Index> inner_vertices(const Neighbours& near, const std::vector<std::uint8_t>& silent = {}) {
     std::vector<Index> inner;
     for (const bool with_rim : {false, true}) {
         for (Index v = 0; v < near.rows(); ++v)
-            if (near.size(v) > 0 && (!near.rim[v] || with_rim)) inner.push_back(v);
+            if (near.size(v) > 0 && (!near.rim[v] || with_rim) && (silent.empty() || !silent[v])) inner.push_back(v);
         if (!inner.empty()) break;
     }
     return inner;
@@ -101,10 +102,10 @@ struct Whiteness {
 /// Small meshes are compared with several samples of noise.
 /// @param steps  that smooth the normals
 Findings findings(const Faces& faces, const Positions& p, const Incidence& at, const Neighbours& near, double edge,
-                  int steps) {
+                  int steps, const std::vector<std::uint8_t>& silent = {}) {
     const Smoothed base = smoothed(faces, p, near, steps);
     const AlongNormals surface(near, p, base.normal, cotangent_weights(faces, at, near, base.positions));
-    const std::vector<Index> inner = inner_vertices(near);
+    const std::vector<Index> inner = inner_vertices(near, silent);
     const int repeats = std::clamp(20000 / std::max(1, near.rows()), 1, 8);
     Findings mean;
     Whiteness whiteness;
@@ -279,16 +280,17 @@ void find_varying_within_surface(const Faces& faces, const Positions& positions,
 }
 
 std::optional<SurfaceNoise> rounding_noise(const Faces& faces, const Positions& positions, const Incidence& at,
-                                           const Neighbours& near, double step, double edge) {
+                                           const Neighbours& near, const std::vector<std::uint8_t>& even, double step,
+                                           double edge) {
     constexpr double least = 0.2, most = 6;
     SurfaceNoise noise;
     noise.along_normals = noise.at_least = noise.within_surface = step / std::sqrt(12.0);
     noise.all_directions = true;
-    const Findings found = findings(faces, positions, at, near, edge, noise.along_normals > 0.12 * edge ? 8 : 3);
+    const Findings found = findings(faces, positions, at, near, edge, noise.along_normals > 0.12 * edge ? 8 : 3, even);
     const double square = noise.along_normals * noise.along_normals;
     // Steps as large as the edges make terraces, which are even; small ones do not.
     const double nearly_everywhere = std::max(0.02, 0.5 - 2.5 * noise.along_normals / edge);
-    if (!(found.median > least * square && found.mean < most * square)) return std::nullopt;
+    if (!(found.median > least * square && found.lower < most * square)) return std::nullopt;
     if (!(found.low > nearly_everywhere * square)) return std::nullopt;
     return noise;
 }

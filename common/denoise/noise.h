@@ -50,9 +50,11 @@ void find_varying_within_surface(const Faces& faces, const Positions& positions,
                                  const std::vector<double>& deviation, SurfaceNoise& noise);
 
 /// Of rounding coordinates to a lattice of this step: uniform errors. Nothing unless third differences have a fair
-/// share of what those make: a shape may have been designed on a lattice, and rounding leaves planes along the axes
-/// even.
+/// share of what those make nearly everywhere: a shape may have been designed on a lattice. Creases and details may
+/// have more.
+/// @param even  #V: EvenPlaces::silent, which do not count
 std::optional<SurfaceNoise> rounding_noise(const Faces& faces, const Positions& positions, const Incidence& at,
-                                           const Neighbours& near, double step, double edge);
+                                           const Neighbours& near, const std::vector<std::uint8_t>& even, double step,
+                                           double edge);
 
 }  // namespace multires

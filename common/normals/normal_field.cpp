@@ -34,12 +34,13 @@ constexpr int energy_steps = 4;
 using Normals = Array<Vec3>;
 
 /// Median difference of the normals of faces with a common edge; 0 without such faces. Faces without a normal do not
-/// count.
-double median_difference(const FaceGraph& graph, const Normals& n) {
+/// count, nor do silent ones.
+double median_difference(const FaceGraph& graph, const Normals& n, const std::vector<std::uint8_t>& silent) {
     std::vector<float> d(graph.edges.size());
     parallel_for(static_cast<Index>(d.size()), [&](Index e) {
         const Vec3 &a = n[graph.edges[e][0]], &b = n[graph.edges[e][1]];
-        d[e] = a.isZero() || b.isZero() ? -1 : static_cast<float>((a - b).norm());
+        const bool counts = silent.empty() || !(silent[graph.edges[e][0]] || silent[graph.edges[e][1]]);
+        d[e] = a.isZero() || b.isZero() || !counts ? -1 : static_cast<float>((a - b).norm());
     });
     d.erase(std::remove(d.begin(), d.end(), -1.0F), d.end());
     if (d.empty()) return 0;
@@ -150,7 +151,7 @@ Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, cons
                             const std::function<void(double)>& tick) {
     const FaceGeometry g = face_geometry(faces, positions);
     stats = NormalFieldStats();
-    stats.noise = median_difference(graph, g.normal);
+    stats.noise = median_difference(graph, g.normal, options.silent);
     const double noise = options.strength * (options.noise > 0 ? options.noise : stats.noise);
     stats.left = stats.noise;
     if (!(noise > 0)) return g.normal;  // flat, or no two faces meet: there is nothing to take for noise
@@ -165,7 +166,7 @@ Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, cons
         tick(static_cast<double>(step) / snapshot.back());
         double tolerance = resting;
         if (!rests) {
-            const double left = step == 1 ? stats.noise : median_difference(graph, n);
+            const double left = step == 1 ? stats.noise : median_difference(graph, n, options.silent);
             tolerance = std::max(factor * left, resting);
             rests = tolerance == resting;
         }
@@ -177,7 +178,7 @@ Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, cons
         const double length = result[f].norm();
         if (length > 0) result[f] /= length;
     });
-    if (options.statistics) stats.left = median_difference(graph, result);
+    if (options.statistics) stats.left = median_difference(graph, result, options.silent);
     return result;
 }
 

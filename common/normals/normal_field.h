@@ -20,7 +20,8 @@ struct NormalFieldOptions {
     double strength = 1;  ///< > 0; scales the noise that is assumed
     /// Median difference of the normals of two faces with a common edge that is put down to noise; 0: measured.
     double noise = 0;
-    bool statistics = true;  ///< all of NormalFieldStats, not only the noise before
+    std::vector<std::uint8_t> silent;  ///< #F: faces whose differences do not count for that; empty: none
+    bool statistics = true;            ///< all of NormalFieldStats, not only the noise before
 };
 
 /// What was found and done, for the report.

@@ -337,6 +337,24 @@ TEST(AutomaticDenoise, TakesTheStairsOfVoxelsForNoise) {
         ASSERT_LE(((*result.positions)[i] - mesh.positions[i]).cwiseAbs().maxCoeff(), (1 + 1e-9) * *step);
 }
 
+TEST(AutomaticDenoise, BelievesRoundingBesidePlanesAlongTheAxes) {
+    const Mesh truth = shapes::block(24);
+    for (const double deviation : {0.05, 0.1}) {
+        SCOPED_TRACE(deviation);
+        const Mesh mesh = noisy(truth, Model::quantised, deviation);
+        const Result result = run(layer_of(mesh));
+        EXPECT_GT(number(result.report, "rounding_step"), 0);
+        const Error before = error_of(truth, mesh.positions), after = error_of(truth, *result.positions);
+        EXPECT_LT(after.angle, 0.6 * before.angle);
+        EXPECT_LT(after.rms, before.rms);
+        for (std::size_t v = 0; v < truth.positions.size(); ++v) {
+            if (truth.positions[v].y() == 0) {
+                ASSERT_EQ((*result.positions)[v].y(), mesh.positions[v].y());
+            }
+        }
+    }
+}
+
 TEST(AutomaticDenoise, MovesNoVertexFartherThanNoise) {
     Mesh truth = shapes::block(13);  // flattened to a sheet
     for (Vec3& p : truth.positions) p.z() *= 0.02;

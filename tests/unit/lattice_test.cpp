@@ -1,9 +1,12 @@
 #include "denoise/lattice.h"
 
+#include "measure/measure.h"
+
 #include "shapes.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace multires {
@@ -49,9 +52,39 @@ TEST(Lattice, IsNotSeenWhereThereIsNone) {
 TEST(Lattice, CellsHoldEachCoordinate) {
     Positions p{Vec3(1, 2, 3), Vec3(1.04, 2.2, 2.7)};
     const Positions centers{Vec3(1, 2, 3), Vec3(1, 2, 3)};
-    keep_within_cells(centers, 0.05, p);
+    keep_within_cells({}, centers, 0.05, p);
     EXPECT_EQ(p[0], Vec3(1, 2, 3));
     EXPECT_NEAR((p[1] - Vec3(1.04, 2.05, 2.95)).norm(), 0, 1e-12);
+    keep_within_cells({{0, 0}, {0, 1U << 1 | 1U << 2}}, centers, 0.05, p);
+    EXPECT_NEAR((p[1] - Vec3(1.04, 2, 3)).norm(), 0, 1e-12) << "the second stays in its planes";
+}
+
+TEST(Lattice, PlanesAlongTheAxesAndTheirCreasesAreEven) {
+    const Mesh mesh = shapes::block(16);  // all planes are, but for a groove and a ramp on its top
+    const Incidence at = vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()));
+    const double edge = mean_edge_length(mesh.faces, mesh.positions);
+    for (const double step : {0.1 * edge, 0.3 * edge}) {
+        const Positions p = rounded(mesh.positions, step, Vec3(0.01, 0, 0));
+        const EvenPlaces even = even_places(mesh.faces, p, at, step, edge);
+        for (std::size_t v = 0; v < p.size(); ++v) {
+            const Vec3& q = mesh.positions[v];
+            const bool bottom = q.y()<1e-9, side = q.z() < 1e-9, on_ramp = q.x()> 1.85 && q.x() < 2.35 && q.y() > 0.5;
+            EXPECT_TRUE(!bottom || (even.silent[v] && (even.axes[v] & 2U))) << q;
+            EXPECT_TRUE(!side || even.axes[v] & 4U) << "up to the groove: " << q;
+            EXPECT_FALSE(on_ramp && even.silent[v] && q.z() > 3 * edge && q.z() < 2 - 3 * edge) << q;
+        }
+    }
+}
+
+TEST(Lattice, TerracesAreNotTakenForPlanes) {
+    const Mesh mesh = shapes::irregular_sphere(3000);
+    const Incidence at = vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()));
+    const double edge = mean_edge_length(mesh.faces, mesh.positions);
+    for (const double step : {0.1 * edge, 0.3 * edge, 0.6 * edge}) {
+        const EvenPlaces even = even_places(mesh.faces, rounded(mesh.positions, step, Vec3(0, 0, 0)), at, step, edge);
+        EXPECT_EQ(std::count(even.silent.begin(), even.silent.end(), 1), 0) << step / edge;
+        EXPECT_EQ(std::count(even.axes.begin(), even.axes.end(), 0), static_cast<int>(even.axes.size()));
+    }
 }
 
 }  // namespace multires
