@@ -141,6 +141,15 @@ WithinSurface within_of(const Faces& faces, const Positions& positions, const Ne
     return relax_within_surface(faces, positions, near, noise, edge, &there);
 }
 
+/// No face is turned back where there are planes: places are known to half a step there, and thin faces turned at the
+/// cost of those.
+void stay_in_planes(const EvenPlaces& even, WithinSurface& within) {
+    if (even.axes.empty()) return;
+    keep_in_planes(even, within.smoothing);
+    within.turned = false;
+    std::fill(within.turning.begin(), within.turning.end(), Vec3(0, 0, 0));
+}
+
 Plan plan_of(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
              const std::optional<double>& step, double edge, const AutomaticOptions& options, const Tick& tick) {
     Plan plan{find_noise(faces, positions, at, near, step, options.deviation, edge, tick), {}};
@@ -148,8 +157,7 @@ Plan plan_of(const Faces& faces, const Positions& positions, const Incidence& at
     tick(0.2, "Looking for noise within the surface");
     const FoundNoise& m = plan.found;
     plan.within = within_of(faces, m.start, near, m.within(options.strength), edge);
-    keep_in_planes(m.even, plan.within.smoothing);
-    keep_in_planes(m.even, plan.within.turning);
+    stay_in_planes(m.even, plan.within);
     return plan;
 }
 
@@ -169,8 +177,7 @@ Plan sampled_plan(const Faces& faces, const Positions& positions, const Incidenc
     if (m.rounded) m.even = even_places(faces, positions, at, *step, edge);
     m.leave_even_places();
     plan.within = relax_within_surface(faces, m.start, near, m.within(options.strength), edge, &plan.within);
-    keep_in_planes(m.even, plan.within.smoothing);
-    keep_in_planes(m.even, plan.within.turning);
+    stay_in_planes(m.even, plan.within);
     return plan;
 }
 

@@ -125,10 +125,8 @@ EvenPlaces even_places(const Faces& faces, const Positions& positions, const Inc
     const std::vector<double> distance = distance_to_others(faces, positions, at, axes, enough, rings);
     EvenPlaces even{std::vector<std::uint8_t>(positions.size()), std::vector<std::uint8_t>(positions.size())};
     for (std::size_t v = 0; v < distance.size(); ++v) even.silent[v] = distance[v] >= enough;
-    if (std::count(even.silent.begin(), even.silent.end(), 1) < least_share * static_cast<double>(positions.size())) {
-        std::fill(even.silent.begin(), even.silent.end(), std::uint8_t{0});
-        return even;
-    }
+    if (std::count(even.silent.begin(), even.silent.end(), 1) < least_share * static_cast<double>(positions.size()))
+        return {};
     std::vector<std::uint8_t> inside(faces.size());
     for (std::size_t f = 0; f < faces.size(); ++f)
         if (std::any_of(faces[f].begin(), faces[f].end(), [&](Index v) { return even.silent[v] != 0; }))

@@ -16,7 +16,7 @@ std::optional<double> lattice_step(const Positions& positions, double least);
 /// @param step  lattice_step()
 bool between_voxels(const Positions& positions, double step);
 
-/// Planes along the axes, and creases between them, are as even after rounding as they were.
+/// Planes along the axes, and creases between them, are as even after rounding as they were. Empty without such planes.
 struct EvenPlaces {
     std::vector<std::uint8_t> silent;  ///< #V: 1 where there is nothing else nearby: nothing is seen of the errors
     std::vector<std::uint8_t> axes;    ///< #V: a bit for each coordinate that is that of such a plane
