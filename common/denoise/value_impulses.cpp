@@ -79,10 +79,13 @@ public:
             }
         return alike.size() > most;
     }
-    /// How far most neighbours are from their median.
-    double spread(Index v) const {
+    /// How far most neighbours are from their median; some may be impulses, too.
+    /// @param others  how many
+    double spread(Index v, Index others) const {
         Value middle{};
-        return median_of_all(v, middle) ? quantile_of_distances(v, middle, 2 * near_.size(v) / 3) : 0;
+        return median_of_all(v, middle)
+                   ? quantile_of_distances(v, middle, std::min(2 * near_.size(v) / 3, near_.size(v) - 1 - others))
+                   : 0;
     }
 
 private:
@@ -149,17 +152,17 @@ Limits limits_for(double share) {
 
 std::vector<std::uint8_t> found_impulses(const Ranks& ranks, const Limits& limits) {
     const Neighbours& near = ranks.near();
+    const auto alike = [&](Index v) { return std::min(limits.alike_around, near.size(v) / 3); };
     std::vector<double> lonely(near.rows(), 0);
     std::vector<std::uint8_t> impulse(near.rows(), 0);
     parallel_for(near.rows(), [&](Index v) {
-        if (near.size(v) >= least_neighbours)
-            lonely[v] = ranks.distance_of_rank(v, std::min(limits.alike_around, near.size(v) / 3));
+        if (near.size(v) >= least_neighbours) lonely[v] = ranks.distance_of_rank(v, alike(v));
     });
     parallel_for(near.rows(), [&](Index v) {
         if (near.size(v) < least_neighbours || !(lonely[v] > 0)) return;
         std::vector<double> around;
         for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k) around.push_back(lonely[near.vertex[k]]);
-        const double usual = std::max(lower_quantile(around, 0.5), ranks.spread(v));
+        const double usual = std::max(lower_quantile(around, 0.5), ranks.spread(v, alike(v)));
         impulse[v] =
             lonely[v] > outlying * usual && ranks.alike_beyond(v) < limits.alike && !ranks.goes_on(v, limits.patch);
     });
@@ -238,9 +241,9 @@ bool independent_of_shape(const ValueSurface& surface, const std::vector<std::ui
     if (mean_rank(impulse, surface.bend) > most_rank) return false;
     Mean usual;
     for (Index v = 0; v < surface.near.rows(); ++v) usual.add(surface.near.size(v));
-    std::vector<double> irregular;
+    std::vector<double> irregular(surface.near.rows());
     for (Index v = 0; v < surface.near.rows(); ++v)
-        irregular.push_back(std::abs(surface.near.size(v) - std::round(usual.value())));
+        irregular[v] = std::abs(surface.near.size(v) - std::round(usual.value()));
     return mean_rank(impulse, irregular) <= most_rank;
 }
 

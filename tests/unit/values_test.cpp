@@ -4,6 +4,7 @@
 #include "denoise/value_impulses.h"
 #include "denoise/value_slopes.h"
 #include "denoise/value_steps.h"
+#include "measure/measure.h"
 #include "mesh/cells.h"
 
 #include "fixtures.h"
@@ -135,6 +136,20 @@ TEST(ValueImpulses, AreFoundWhereTheyAreFew) {
         EXPECT_NEAR(static_cast<double>(without_impulses(surface, values, 1).count), static_cast<double>(hit), 4)
             << seed;
     }
+}
+
+// One in seven, so that most have others beside them.
+TEST(ValueImpulses, AreFoundBesideEachOther) {
+    const Mesh mesh = shapes::irregular_sphere(4000);
+    const ValueSurface surface(mesh);
+    std::vector<double> truth, values;
+    shapes::Random random(3);
+    for (const Vec3& p : mesh.positions) {
+        truth.push_back(p.x());
+        values.push_back(random.uniform(0, 1) < 0.14 ? random.uniform(0, 1) < 0.5 ? -5 : 5 : p.x());
+    }
+    const ValueImpulses found = without_impulses(surface, values, 1);
+    EXPECT_LT(rms(distance(found.values, truth)), 0.2 * rms(distance(values, truth)));
 }
 
 TEST(ValueImpulses, AreNotFoundAmongNoiseTexturePatternsAndWhatBelongsToTheMesh) {
