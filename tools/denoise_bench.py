@@ -8,7 +8,7 @@ nobody can who has no truth: MeshLab's six smoothing filters, and bilateral norm
 reference_denoisers.py. Angles are means over the faces, distances root mean squares, vertex by vertex, in edge lengths.
 Meshes that constants were chosen on come after those that they were not. What is done is kept in
 bench-output/denoise-clean.csv: a run that was stopped goes on where it was. The whole takes many hours, --quick (small
-meshes, two sizes of noise, one seed, fewer settings) ten minutes.
+meshes, two sizes of noise, one seed, fewer settings) forty minutes of processor time.
 
 pairs: noisy meshes of the literature, and shapes made here, with volumes, folded faces and times. speed: medians of
 alternating runs on a generated scan of 135,000 vertices. Tables go to bench-output/ (.md and .csv) and are printed.
@@ -288,7 +288,7 @@ def main():
     parser.add_argument("--seeds", type=int, help="of the clean meshes' noise; 3, or 1 with --quick")
     parser.add_argument("--repeats", type=int, default=3, help="runs for the times of the pairs")
     parser.add_argument("--speed-repeats", type=int, default=7)
-    parser.add_argument("--quick", action="store_true", help="minutes instead of hours; see above")
+    parser.add_argument("--quick", action="store_true", help="a small part of it; see above")
     arguments = parser.parse_args()
     what = arguments.what or ["clean", "pairs", "speed"]
 
