@@ -266,7 +266,7 @@ ValueImpulses without_impulses(const ValueSurface& surface, const std::vector<do
     const auto all = static_cast<double>(count), found = static_cast<double>(count_of(hits));
     if (found < std::max(5.0, least_share * all) || !independent_of_shape(surface, hits)) return out;
     const auto chance = static_cast<double>(by_chance(surface, width));
-    if (found <= 2 * chance + std::sqrt(chance) || cluster(surface.near, hits)) return out;
+    if (found <= 2 * chance || cluster(surface.near, hits)) return out;
     const Limits limits = limits_for(found / all);
     const double most_height = highest * median_height(ranks, hits);
     for (int pass = 0; pass < passes; ++pass) {
