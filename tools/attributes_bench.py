@@ -193,7 +193,7 @@ def main():
     moved = [row for row in rows if row[3] == "Gaussian 0"]
     if moved:
         print("Without noise moved by", max(row[5] for row in moved), "at most")
-    worst = sorted((row for row in rows if row[3] != "Gaussian 0" and row[4] > 1e-9), key=lambda row: row[4] / row[5])[:5]
+    worst = sorted((row for row in rows if row[3] != "Gaussian 0" and row[4] > 1e-9), key=lambda row: -row[5] / row[4])[:5]
     print(table([(*row[:4], f"{row[4]:.4f}", f"{row[5]:.4f}") for row in worst],
           ("split", "mesh", "signal", "noise", "before", "after")))  # fmt: skip
 
