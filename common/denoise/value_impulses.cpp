@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 namespace multires {
 namespace {
@@ -25,9 +27,9 @@ constexpr int widest = 4;
 /// Values as they are seen from each vertex: less what they rise there.
 class Ranks {
 public:
-    Ranks(const ValueSurface& surface, const std::vector<double>& values, int width)
-        : near_(surface.near), positions_(surface.positions), values_(values), width_(width),
-          slope_(value_slopes(surface.near, surface.positions, surface.normal, values, width)) {}
+    Ranks(const ValueSurface& surface, std::vector<double> values, int width)
+        : near_(surface.near), positions_(surface.positions), values_(std::move(values)), width_(width),
+          slope_(value_slopes(surface.near, surface.positions, surface.normal, values_, width)) {}
 
     const Neighbours& near() const { return near_; }
     /// Of the neighbours that are no impulses, channel by channel; false if there are too few.
@@ -36,11 +38,10 @@ public:
         for (int c = 0; c < width_; ++c) {
             around.clear();
             for (Index k = near_.offset[v]; k < near_.offset[v + 1]; ++k)
-                if (!impulse[near_.vertex[k]]) around.push_back(seen(v, near_.vertex[k])[c]);
+                if (!impulse[near_.vertex[k]]) around.push_back(seen(v, near_.vertex[k], c));
             if (around.empty()) return false;
-            const double upper = upper_median(around);
-            const auto half = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-            to[c] = around.size() % 2 == 1 ? upper : (upper + *std::max_element(around.begin(), half)) / 2;
+            const auto [lower, upper] = middle_values(around);
+            to[c] = (lower + upper) / 2;
         }
         return true;
     }
@@ -98,11 +99,12 @@ private:
     /// The value of w, from v.
     Value seen(Index v, Index w) const {
         Value value{};
-        const Vec3 way = positions_[w] - positions_[v];
-        for (int c = 0; c < width_; ++c)
-            value[c] = values_[static_cast<std::size_t>(w) * width_ + c] -
-                       slope_[static_cast<std::size_t>(v) * width_ + c].dot(way);
+        for (int c = 0; c < width_; ++c) value[c] = seen(v, w, c);
         return value;
+    }
+    double seen(Index v, Index w, int c) const {
+        return values_[static_cast<std::size_t>(w) * width_ + c] -
+               slope_[static_cast<std::size_t>(v) * width_ + c].dot(positions_[w] - positions_[v]);
     }
     /// Whether the value of w is nearer to that of v than to what is usual there.
     bool nearer(Index v, Index w, const Value& usual) const {
@@ -113,7 +115,7 @@ private:
         std::vector<double> around;
         for (int c = 0; c < width_; ++c) {
             around.clear();
-            for (Index k = near_.offset[v]; k < near_.offset[v + 1]; ++k) around.push_back(seen(v, near_.vertex[k])[c]);
+            for (Index k = near_.offset[v]; k < near_.offset[v + 1]; ++k) around.push_back(seen(v, near_.vertex[k], c));
             if (around.empty()) return false;
             to[c] = lower_quantile(around, 0.5);
         }
@@ -130,7 +132,7 @@ private:
 
     const Neighbours& near_;
     const Positions& positions_;
-    const std::vector<double>& values_;
+    std::vector<double> values_;
     int width_;
     std::vector<Vec3> slope_;  ///< #V by width
 };
@@ -239,16 +241,14 @@ double mean_rank(const std::vector<std::uint8_t>& impulse, const std::vector<dou
 /// Whether they are elsewhere than what belongs to the surface would be.
 bool independent_of_shape(const ValueSurface& surface, const std::vector<std::uint8_t>& impulse) {
     if (mean_rank(impulse, surface.bend) > most_rank) return false;
-    Mean usual;
-    for (Index v = 0; v < surface.near.rows(); ++v) usual.add(surface.near.size(v));
-    std::vector<double> irregular(surface.near.rows());
-    for (Index v = 0; v < surface.near.rows(); ++v)
-        irregular[v] = std::abs(surface.near.size(v) - std::round(usual.value()));
+    const Neighbours& near = surface.near;
+    const double usual = std::round(static_cast<double>(near.vertex.size()) / near.rows());
+    std::vector<double> irregular(near.rows());
+    for (Index v = 0; v < near.rows(); ++v) irregular[v] = std::abs(near.size(v) - usual);
     return mean_rank(impulse, irregular) <= most_rank;
 }
 
 /// Replaces those marked; those without a neighbour that is none are no longer marked.
-/// @param ranks  of other values
 void replace(const Ranks& ranks, std::vector<std::uint8_t>& impulse, std::vector<double>& values, int width) {
     const std::vector<std::uint8_t> marked = impulse;
     parallel_for(ranks.near().rows(), [&](Index v) {
@@ -261,20 +261,19 @@ void replace(const Ranks& ranks, std::vector<std::uint8_t>& impulse, std::vector
 ValueImpulses without_impulses(const ValueSurface& surface, const std::vector<double>& values, int width) {
     const std::size_t count = surface.positions.size();
     ValueImpulses out{values, std::vector<std::uint8_t>(count, 0), 0};
-    const Ranks ranks(surface, values, width);
-    std::vector<std::uint8_t> hits = found_impulses(ranks, {});
+    std::optional<Ranks> ranks(std::in_place, surface, values, width);
+    std::vector<std::uint8_t> hits = found_impulses(*ranks, {});
     const auto all = static_cast<double>(count), found = static_cast<double>(count_of(hits));
     if (found < std::max(5.0, least_share * all) || !independent_of_shape(surface, hits)) return out;
     const auto chance = static_cast<double>(by_chance(surface, width));
     if (found <= 2 * chance || cluster(surface.near, hits)) return out;
     const Limits limits = limits_for(found / all);
-    const double most_height = highest * median_height(ranks, hits);
+    const double most_height = highest * median_height(*ranks, hits);
     for (int pass = 0; pass < passes; ++pass) {
-        const std::vector<double> before = out.values;
-        const Ranks now(surface, before, width);
-        hits = found_impulses(now, limits);
-        keep_high(now, most_height, hits);
-        replace(now, hits, out.values, width);
+        if (pass > 0) ranks.emplace(surface, out.values, width);
+        hits = found_impulses(*ranks, limits);
+        keep_high(*ranks, most_height, hits);
+        replace(*ranks, hits, out.values, width);
         for (std::size_t i = 0; i < count; ++i) out.impulse[i] |= hits[i];
     }
     out.count = count_of(out.impulse);

@@ -18,7 +18,7 @@ struct ValueImpulses {
 /// and so are hits where the surface bends more, or its vertices have other numbers of neighbours, than elsewhere, as
 /// extremes of a curvature or numbers of faces: nothing is changed.
 /// @param values  #V by width, width at most 4
-/// Cost: O(entries log valence), about ten times value_slopes()
+/// Cost: O(entries log valence), and value_slopes() up to four times
 ValueImpulses without_impulses(const ValueSurface& surface, const std::vector<double>& values, int width);
 
 }  // namespace multires

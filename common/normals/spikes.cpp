@@ -41,9 +41,7 @@ enum class Middle { mean, nearest };
 
 /// @param values  at least one; reordered
 double median(std::vector<double>& values, Middle middle) {
-    const double upper = upper_median(values);
-    if (values.size() % 2 == 1) return upper;
-    const double lower = *std::max_element(values.begin(), values.begin() + values.size() / 2);
+    const auto [lower, upper] = middle_values(values);
     if (middle == Middle::mean) return (lower + upper) / 2;
     return std::abs(lower) < std::abs(upper) ? lower : upper;
 }
