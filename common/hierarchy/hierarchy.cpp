@@ -214,7 +214,9 @@ Simplified mesh_of_rest(const Mesh& mesh, const Array<Index>& became, const Norm
         out.source_vertex.push_back(static_cast<Index>(v));
         out.positions.push_back(left.unless_still(mesh.positions[v], left.positions[became[v]]));
     }
-    const auto corner = [&](Index v) { return index[became[v] >= 0 ? became[v] : ~became[v]]; };
+    out.into.resize(became.size());
+    for (std::size_t v = 0; v < became.size(); ++v) out.into[v] = index[became[v] >= 0 ? became[v] : ~became[v]];
+    const auto corner = [&](Index v) { return out.into[v]; };
     take_faces(
         mesh.faces, corner, [&](Index v) { return became[v] < 0; }, out.faces, out.source_face);
     return out;

@@ -13,6 +13,7 @@ struct SimplifyGoal {
 /// A mesh of some of the input's vertices, moved. Vertices and faces are in order of the input.
 struct Simplified {
     std::vector<Index> source_vertex, source_face;
+    std::vector<Index> into;  ///< #V of the input: the vertex each went into, or is
     Faces faces;
     Positions positions;
 };

@@ -1,6 +1,8 @@
 #include "filters/layers/adaptive.h"
 
+#include "filters/layers/adaptive_search.h"
 #include "filters/layers/texture_seams.h"
+#include "hierarchy/simplify.h"
 #include "hierarchy_checks.h"
 #include "measure/distance.h"
 #include "measure/measure.h"
@@ -604,6 +606,20 @@ TEST(Adaptive, FitIsNoWorseThanVerticesOfTheInputOnAnyClass) {
             EXPECT_LE(value(fit, "rms_distance"), value(plain, "rms_distance") + 1e-6 * diagonal);
             EXPECT_LE(value(fit, "faces"), std::max<double>(o.faces, value(plain, "faces")));
         }
+}
+
+TEST(Adaptive, VerticesThatMovedOnTheWayFitTheWholeInputInTheEnd) {
+    for (const Mesh& mesh : {shapes::scan(8000), shapes::irregular_sphere(8000)}) {
+        AdaptiveOptions o = moving(Target::faces, 0.1, mesh);
+        o.measure = true;
+        HierarchyOptions how = adaptive_collapses(o);
+        how.set_share = 0.25;
+        const Layer layer = layer_of(mesh);
+        const Simplified s = simplify(mesh, adaptive_rings(layer, o), how, {o.base_vertices, o.faces}, {});
+        for (std::size_t v = 0; v < s.source_vertex.size(); ++v) EXPECT_EQ(s.into[s.source_vertex[v]], v);
+        const double before = two_sided_distance(mesh.faces, mesh.positions, s.faces, s.positions).rms;
+        EXPECT_LT(value(run(layer, o), "rms_distance"), 0.95 * before);
+    }
 }
 
 // Modelling programs write backs of faces as faces: what is asked for is the number of all.

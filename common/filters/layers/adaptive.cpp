@@ -94,7 +94,12 @@ public:
         for (Face& f : mesh.faces) f = {index_of[f[0]], index_of[f[1]], index_of[f[2]]};
         r.mesh.faces = std::move(mesh.faces);
         r.mesh.source_face = std::move(mesh.source_face);
-        if (options_.fit && count < h_.vertices()) r.positions = fitted(layer_.mesh, r.mesh.faces, r.positions, fixed);
+        if (options_.fit && count < h_.vertices()) {
+            const Array<Index> left = places_left(h_, [&](Index place) { return in[place] != 0; });
+            std::vector<Index> into(h_.vertices());
+            for (Index v = 0; v < h_.vertices(); ++v) into[v] = index_of[left[place_of[v]]];
+            r.positions = fitted(layer_.mesh, r.mesh.faces, r.positions, into, fixed);
+        }
         if (measure)
             r.distance = count == h_.vertices()
                              ? Distance()

@@ -88,12 +88,16 @@ Hierarchy adaptive_hierarchy(const Layer& layer, Rings rings, const AdaptiveOpti
 std::vector<double> importance(const Layer& layer, const Rings& rings, const Hierarchy& hierarchy,
                                const AdaptiveOptions& options);
 
-/// Moves the vertices of a reconstruction to where they fit the input best: least squares of the distances of the
-/// input's vertices along the normals of the faces nearest to them. No face turns by more than 60 degrees against where
-/// it was; vertices without a closed ring stay (boundary, non-manifold, in no face), as do those marked `fixed`. See
-/// adaptive_fit.cpp.
+/// Moves the vertices of a reconstruction to where they fit the input better: least squares of the distances of the
+/// centroids of the input's faces, by area, along the normals of faces near them (Hoppe et al. 1993, "Mesh
+/// Optimization", section 4.1, has such samples and closest points; here one pass of four damped steps, in which each
+/// vertex is by itself). No face turns by more than 60 degrees against where it was; vertices without a closed ring
+/// stay (boundary, non-manifold, in no face), as do those marked `fixed`. See adaptive_fit.cpp.
 /// @param positions  #V', of the vertices that `faces` refers to
-Positions fitted(const Mesh& input, const Faces& faces, const Positions& positions,
+/// @param into       #V of the input: the vertex of the reconstruction each went into, or is
+/// @param fixed      #V'
+/// Cost: linear in the faces of both.
+Positions fitted(const Mesh& input, const Faces& faces, const Positions& positions, const std::vector<Index>& into,
                  const std::vector<std::uint8_t>& fixed);
 
 }  // namespace multires

@@ -1,26 +1,30 @@
 #include "filters/layers/adaptive.h"
 
+#include "base/buckets.h"
 #include "base/parallel.h"
 #include "measure/distance.h"
 #include "measure/triangles.h"
 #include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
-#include "solvers/conjugate_gradients.h"
+
+#include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 // Where the vertices of a reconstruction fit the input best.
 
 namespace multires {
 namespace {
 
-/// Closest point of an input vertex: a face, its barycentric coordinates and normal.
+/// Closest point of a sample of the input: a face, its barycentric coordinates and normal.
 struct Foot {
     Index face = -1;  ///< -1: does not count
     Vec3 share = Vec3::Zero(), normal = Vec3::Zero();
     double weight = 0;
-    double gap = 0;  ///< from the foot to the vertex, along the normal
+    double gap = 0;  ///< from the foot to the sample, along the normal
 };
 
 /// The normal at a foot. On an edge or a corner, where several faces are equally close and rounding chooses one, it is
@@ -37,112 +41,126 @@ Vec3 normal_at(const Vec3& share, const Vec3& gap, const Face& f, const Vec3& fa
     return sum.norm() > tolerance ? sum.normalized() : face_normal;
 }
 
-/// Feet of the input's vertices on a reconstruction.
-std::vector<Foot> feet_of(const Mesh& input, const std::vector<double>& area, const Faces& faces, const Positions& at) {
-    const SurfaceTree tree(faces, at);
-    const Array<Vec3> vertex_normal = vertex_normals(faces, at);
-    std::vector<Foot> feet(input.positions.size());
-    parallel_chunks(static_cast<Index>(feet.size()), 1024, [&](Index begin, Index end) {
-        Index hint = -1;
-        for (Index i = begin; i < end; ++i) {
-            if (!(area[i] > 0)) continue;
-            const SurfaceTree::Hit hit = tree.closest(input.positions[i], hint);
-            hint = hit.face;
-            const Face& f = faces[hit.face];
-            const Vec3 n = area_vector(f, at);
-            const double length = n.norm();
-            if (!(length > 0)) continue;
-            Foot& foot = feet[i];
-            foot.face = hit.face;
-            foot.share = barycentric(hit.point, at[f[0]], at[f[1]], at[f[2]]);
-            const Vec3 gap = input.positions[i] - hit.point;
-            foot.normal = normal_at(foot.share, gap, f, n / length, vertex_normal, std::sqrt(length));
-            foot.weight = area[i];
-            foot.gap = foot.normal.dot(gap);
+/// Finds points of a reconstruction close to points of the input.
+class Near {
+public:
+    Near(const Faces& faces, const Positions& at)
+        : faces_(faces), at_(at), around_(static_cast<Index>(at.size()), [&](const auto& put) {
+              for (std::size_t f = 0; f < faces.size(); ++f)
+                  for (const Index v : faces[f]) put(v, static_cast<Index>(f));
+          }) {}
+
+    struct Hit {
+        Index face = -1;
+        Vec3 point = Vec3::Zero();
+    };
+
+    /// A point that no face around the corners of its face is closer than. Where p went into a vertex whose faces it
+    /// lies on, as nearly all do, that is the closest one; at a small part of the cost of a search of all faces.
+    /// @param start  a vertex near p
+    Hit operator()(const Vec3& p, Index start) const {
+        Hit hit;
+        double least = std::numeric_limits<double>::infinity();
+        std::array<Index, 16> searched;
+        const auto end = [&](std::size_t n) { return searched.begin() + n; };
+        std::size_t count = 0;
+        for (Index next = start; next >= 0 && count < searched.size();) {
+            const auto done = [&](Index v) { return std::find(searched.begin(), end(count), v) != end(count); };
+            for (const Index f : around_[next]) {
+                const Face& face = faces_[f];
+                if (done(face[0]) || done(face[1]) || done(face[2])) continue;
+                const Vec3 point = closest_on_triangle(p, at_[face[0]], at_[face[1]], at_[face[2]]);
+                const double squared = (point - p).squaredNorm();
+                if (!(squared < least)) continue;
+                least = squared;
+                hit = {f, point};
+            }
+            searched[count++] = next;
+            next = -1;
+            if (hit.face >= 0)
+                for (const Index v : faces_[hit.face])
+                    if (!done(v)) next = v;
         }
+        return hit;
+    }
+
+private:
+    const Faces& faces_;
+    const Positions& at_;
+    Buckets<> around_;
+};
+
+/// Feet of the centroids of the input's faces, which weigh as their areas.
+/// @param into  see fitted()
+std::vector<Foot> feet_of(const Mesh& input, const Faces& faces, const Positions& at, const std::vector<Index>& into) {
+    const Near near(faces, at);
+    const Array<Vec3> vertex_normal = vertex_normals(faces, at);
+    std::vector<Foot> feet(input.faces.size());
+    parallel_for(static_cast<Index>(feet.size()), [&](Index i) {
+        const Face& from = input.faces[i];
+        const double area = area_vector(from, input.positions).norm();
+        if (!(area > 0)) return;
+        const Vec3 sample = (input.positions[from[0]] + input.positions[from[1]] + input.positions[from[2]]) / 3;
+        const Near::Hit hit = near(sample, into[from[0]]);
+        if (hit.face < 0) return;
+        const Face& f = faces[hit.face];
+        const Vec3 n = area_vector(f, at);
+        const double length = n.norm();
+        if (!(length > 0)) return;
+        Foot& foot = feet[i];
+        foot.face = hit.face;
+        foot.share = barycentric(hit.point, at[f[0]], at[f[1]], at[f[2]]);
+        const Vec3 gap = sample - hit.point;
+        foot.normal = normal_at(foot.share, gap, f, n / length, vertex_normal, std::sqrt(length));
+        foot.weight = area;
+        foot.gap = foot.normal.dot(gap);
     });
     return feet;
 }
 
-/// Least squares for displacements x of the vertices: the sum over the feet of weight (normal . (B x) - gap)^2, where
-/// B x is the displacement of the foot, and stiffness weight_v |x_v|^2 over the vertices. Preconditioned by the
-/// diagonal.
-class Solver {
-public:
-    Solver(const Faces& faces, const std::vector<Foot>& feet, const std::vector<std::uint8_t>& fixed, Index vertices)
-        : faces_(faces), feet_(feet), fixed_(fixed), diagonal_(vertices, 0) {
-        std::vector<double> mass(vertices, 0);
-        for (const Foot& foot : feet_)
-            if (foot.face >= 0)
-                for (int k = 0; k < 3; ++k) {
-                    mass[faces_[foot.face][k]] += foot.weight * foot.share[k];
-                    diagonal_[faces_[foot.face][k]] += foot.weight * foot.share[k] * foot.share[k];
-                }
-        double mean = 0;
-        for (const double m : mass) mean += m;
-        mean /= std::max<Index>(1, vertices);
-        constexpr double stiffness = 0.02;
-        for (Index v = 0; v < vertices; ++v) {
-            spring_.push_back(stiffness * mass[v] + 1e-3 * stiffness * mean);
-            diagonal_[v] += spring_[v];
+/// Displacements x of the vertices that lessen the sum over the feet of weight (gap - normal . (B x))^2, where B x is
+/// the displacement of the foot. As shares sum to one, (gap - normal . (B x))^2 is at most the sum over the corners of
+/// share (gap - normal . x_corner)^2, which each vertex makes least by itself; steps of less than twice that length
+/// lessen the sum, too.
+Positions displacements(const Faces& faces, const std::vector<Foot>& feet, const std::vector<std::uint8_t>& fixed) {
+    constexpr double stay = 0.03;  // of the trace: what is worth staying along directions in which feet say little
+    constexpr double step = 1.5;
+    constexpr int steps = 4;
+    std::vector<Eigen::Matrix3d> inverse(fixed.size(), Eigen::Matrix3d::Zero());
+    for (const Foot& foot : feet) {
+        if (foot.face < 0) continue;
+        const Eigen::Matrix3d square = foot.weight * foot.normal * foot.normal.transpose();
+        for (int k = 0; k < 3; ++k) inverse[faces[foot.face][k]] += foot.share[k] * square;
+    }
+    parallel_for(static_cast<Index>(inverse.size()), [&](Index v) {
+        Eigen::Matrix3d& m = inverse[v];
+        const double trace = m.trace();
+        if (fixed[v] || !(trace > 0)) {
+            m.setZero();
+        } else {
+            m.diagonal().array() += stay * trace;
+            m = Eigen::Matrix3d(m.inverse());
         }
-    }
-
-    Positions solve(int steps) const {
-        std::vector<double> gap(feet_.size());
-        for (std::size_t i = 0; i < gap.size(); ++i) gap[i] = feet_[i].gap;
-        Array<double> r(3 * diagonal_.size());
-        transpose(gap, r);
-        Positions x(diagonal_.size(), Vec3::Zero());
-        GradientsOptions options;
-        options.tolerance = 1e-4;
-        options.most_steps = steps;
-        GradientsMemory<double> memory;
-        // One system for all coordinates, which normals tie together: a channel of 3 #V rows.
-        conjugate_gradients<1, false, double>(
-            r, options, [&](const Array<double>& p, Array<double>& q) { apply(p, q); },
-            [&](const Array<double>& from, Array<double>& to) {
-                for (std::size_t i = 0; i < from.size(); ++i) to[i] = from[i] / std::max(diagonal_[i / 3], 1e-300);
-            },
-            [&](Index i, const double* change) {
-                x[i / 3][i % 3] += *change;
-                return *change * *change;
-            },
-            [](int, double) {}, memory);
-        return x;
-    }
-
-private:
-    /// out = sum over the feet of weight B' normal row, 0 at fixed vertices.
-    void transpose(const std::vector<double>& rows, Array<double>& out) const {
-        std::fill(out.begin(), out.end(), 0.0);
-        for (std::size_t i = 0; i < feet_.size(); ++i) {
-            const Foot& foot = feet_[i];
-            if (foot.face < 0) continue;
-            for (int k = 0; k < 3; ++k) {
-                const Index v = faces_[foot.face][k];
-                if (!fixed_[v]) Eigen::Map<Vec3>(&out[3 * v]) += foot.weight * foot.share[k] * rows[i] * foot.normal;
-            }
-        }
-    }
-    void apply(const Array<double>& p, Array<double>& q) const {
-        std::vector<double> rows(feet_.size(), 0);
-        parallel_for(static_cast<Index>(rows.size()), [&](Index i) {
-            const Foot& foot = feet_[i];
+    });
+    Positions x(fixed.size(), Vec3::Zero());
+    std::vector<double> left(feet.size());
+    for (int i = 0; i < steps; ++i) {
+        parallel_for(static_cast<Index>(feet.size()), [&](Index j) {
+            const Foot& foot = feet[j];
             if (foot.face < 0) return;
-            for (int k = 0; k < 3; ++k)
-                rows[i] += foot.share[k] * foot.normal.dot(Eigen::Map<const Vec3>(&p[3 * faces_[foot.face][k]]));
+            const Face& f = faces[foot.face];
+            const Vec3 moved = foot.share[0] * x[f[0]] + foot.share[1] * x[f[1]] + foot.share[2] * x[f[2]];
+            left[j] = foot.weight * (foot.gap - foot.normal.dot(moved));
         });
-        transpose(rows, q);
-        for (std::size_t i = 0; i < q.size(); ++i)
-            if (!fixed_[i / 3]) q[i] += spring_[i / 3] * p[i];
+        Positions pull(fixed.size(), Vec3::Zero());
+        for (std::size_t j = 0; j < feet.size(); ++j) {
+            if (feet[j].face < 0) continue;
+            for (int k = 0; k < 3; ++k) pull[faces[feet[j].face][k]] += feet[j].share[k] * left[j] * feet[j].normal;
+        }
+        parallel_for(static_cast<Index>(x.size()), [&](Index v) { x[v] += step * (inverse[v] * pull[v]); });
     }
-
-    const Faces& faces_;
-    const std::vector<Foot>& feet_;
-    const std::vector<std::uint8_t>& fixed_;
-    std::vector<double> diagonal_, spring_;
-};
+    return x;
+}
 
 /// Takes displacements back, half by half, until no face turns by more than 60 degrees or shrinks to nothing.
 Positions without_flips(const Faces& faces, const Positions& before, Positions move) {
@@ -171,21 +189,12 @@ Positions without_flips(const Faces& faces, const Positions& before, Positions m
 
 }  // namespace
 
-Positions fitted(const Mesh& input, const Faces& faces, const Positions& positions,
+Positions fitted(const Mesh& input, const Faces& faces, const Positions& positions, const std::vector<Index>& into,
                  const std::vector<std::uint8_t>& fixed) {
     std::vector<std::uint8_t> stay = fixed;
     const Rings rings = surface_rings({positions, faces});
     for (std::size_t v = 0; v < stay.size(); ++v) stay[v] |= rings.kind[v] != RingKind::closed;
-    const std::vector<double> area = area_shares(input.faces, input.positions);
-    Positions now = positions;
-    constexpr int rounds = 2, steps = 12;
-    for (int round = 0; round < rounds; ++round) {
-        const std::vector<Foot> feet = feet_of(input, area, faces, now);
-        Positions move = Solver(faces, feet, stay, static_cast<Index>(now.size())).solve(steps);
-        for (std::size_t v = 0; v < move.size(); ++v) move[v] += now[v] - positions[v];
-        now = without_flips(faces, positions, std::move(move));
-    }
-    return now;
+    return without_flips(faces, positions, displacements(faces, feet_of(input, faces, positions, into), stay));
 }
 
 }  // namespace multires

@@ -2,6 +2,8 @@
 #include "hierarchy/simplify.h"
 #include "mesh/validation.h"
 
+#include <algorithm>
+
 // Adaptive reconstruction whose vertices move while others are removed.
 
 namespace multires {
@@ -30,7 +32,8 @@ public:
         r.mesh.faces = std::move(s.faces);
         r.mesh.source_vertex = std::move(s.source_vertex);
         r.mesh.source_face = std::move(s.source_face);
-        r.positions = std::move(s.positions);
+        r.positions = r.count == all() ? std::move(s.positions)
+                                       : fitted(layer_.mesh, r.mesh.faces, s.positions, s.into, on_features(r.mesh));
         if (measure_)
             r.distance = r.count == all()
                              ? Distance()
@@ -39,6 +42,17 @@ public:
     }
 
 private:
+    /// Marks the vertices that features go through.
+    std::vector<std::uint8_t> on_features(const DerivedMesh& mesh) const {
+        std::vector<std::uint8_t> on(mesh.source_vertex.size(), 0);
+        if (rings_.feature.empty()) return on;
+        for (std::size_t v = 0; v < on.size(); ++v) {
+            const auto ring = rings_.feature.begin() + rings_.offset[mesh.source_vertex[v]];
+            on[v] = std::any_of(ring, ring + rings_.size(mesh.source_vertex[v]), [](std::uint8_t f) { return f != 0; });
+        }
+        return on;
+    }
+
     const Layer& layer_;
     const AdaptiveOptions& options_;
     bool measure_;
