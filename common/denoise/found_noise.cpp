@@ -3,6 +3,7 @@
 #include "base/median.h"
 #include "base/reduce.h"
 #include "denoise/varying_noise.h"
+#include "denoise/weak_impulses.h"
 #include "measure/measure.h"
 #include "measure/vertex_normals.h"
 #include "normals/guided_normals.h"
@@ -85,12 +86,18 @@ Positions with_creases(const Faces& faces, const Positions& positions, const Inc
 
 Positions without_impulses(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
                            Index& spikes) {
-    Positions start = without_spikes(faces, positions, at, spikes);
-    if (spikes > 0 && !stand_out(faces, positions, start, near)) spikes = 0;
-    if (spikes == 0) return positions;
+    const Positions bent = without_weak_impulses(faces, positions, at, near);
+    Positions start = without_spikes(faces, bent, at, spikes);
+    if (spikes > 0 && !stand_out(faces, bent, start, near)) start = bent;
+    if (start == positions) {
+        spikes = 0;
+        return start;
+    }
     std::vector<std::uint8_t> moves(positions.size());
     for (std::size_t i = 0; i < moves.size(); ++i) moves[i] = start[i] != positions[i];
-    start = with_creases(faces, start, at, moves);
+    const Positions creased = with_creases(faces, start, at, moves);
+    for (std::size_t i = 0; i < moves.size(); ++i)  // among slivers it may go far
+        if ((creased[i] - start[i]).norm() < (start[i] - positions[i]).norm()) start[i] = creased[i];
     spikes = put_back_jags(positions, near, start);
     return start;
 }

@@ -1,0 +1,82 @@
+#include "denoise/weak_impulses.h"
+
+#include "denoise_fixtures.h"
+
+namespace multires {
+
+using namespace fixtures;
+
+namespace {
+
+Positions set_back(const Mesh& mesh) {
+    const Incidence at = vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()));
+    return without_weak_impulses(mesh.faces, mesh.positions, at, neighbours(mesh.faces, at));
+}
+
+double rms_distance(const Positions& a, const Positions& b) { return displacement(a, b).rms; }
+
+/// Some vertices moved along the normals.
+/// @param share   of the vertices
+/// @param height  of one that is moved, mean edge lengths
+template <class Height>
+Mesh with_some_moved(Mesh mesh, double share, const Height& height) {
+    const Positions normal = fixtures::vertex_normals(mesh);
+    const double edge = mean_edge_length(mesh.faces, mesh.positions);
+    shapes::Random random(7);
+    for (std::size_t v = 0; v < normal.size(); ++v)
+        if (random.uniform() < share) mesh.positions[v] += height(random) * edge * normal[v];
+    return mesh;
+}
+
+}  // namespace
+
+TEST(WeakImpulses, AreSetBackWhereTheSurfaceBends) {
+    for (const Mesh& truth : {shapes::irregular_sphere(2000), shapes::irregular_sphere(6000)})
+        for (const double share : {0.05, 1.0 / 7})
+            for (const double size : {0.05, 0.2}) {
+                SCOPED_TRACE(size);
+                const Mesh mesh =
+                    with_some_moved(truth, share, [&](shapes::Random& random) { return size * gaussian(random); });
+                EXPECT_LT(rms_distance(truth.positions, set_back(mesh)),
+                          0.5 * rms_distance(truth.positions, mesh.positions));
+                EXPECT_LT(mean_normal_angle(truth.faces, truth.positions, denoised(mesh)),
+                          0.4 * mean_normal_angle(truth.faces, truth.positions, mesh.positions));
+            }
+}
+
+TEST(WeakImpulses, ShapesAndGaussianNoiseHaveNone) {
+    for (const Mesh& shape :
+         {shapes::plane(40), shapes::irregular_sphere(3000), shapes::block(10), shapes::scan(3000), rough_terrain(40)})
+        for (const double noise : {0.0, 0.05, 0.3}) {
+            Mesh mesh = shape;
+            mesh.positions = with_noise(shape, noise);
+            EXPECT_EQ(set_back(mesh), mesh.positions);
+        }
+    for (const auto& [name, mesh] : every_class()) {
+        SCOPED_TRACE(name);
+        for (const Vec3& p : set_back(mesh)) EXPECT_TRUE(p.allFinite());
+    }
+}
+
+TEST(WeakImpulses, ThatAllGoToOneSideAreShape) {
+    const Mesh studs = with_some_moved(shapes::irregular_sphere(4000), 0.1,
+                                       [](shapes::Random& random) { return 0.1 + 0.1 * random.uniform(); });
+    EXPECT_EQ(set_back(studs), studs.positions);
+}
+
+TEST(WeakImpulses, AreTheSameBitsForAnyNumberOfThreads) {
+    const Mesh mesh = with_some_moved(shapes::irregular_sphere(4000), 0.1,
+                                      [](shapes::Random& random) { return 0.1 * gaussian(random); });
+    Positions first;
+    for (const int threads : {1, 3}) {
+        const Threads scope(threads);
+        const Positions p = set_back(mesh);
+        if (threads == 1)
+            first = p;
+        else
+            EXPECT_EQ(p, first);
+    }
+    EXPECT_NE(first, mesh.positions);
+}
+
+}  // namespace multires
