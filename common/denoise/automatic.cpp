@@ -5,6 +5,7 @@
 #include "denoise/lattice.h"
 #include "denoise/outliers.h"
 #include "denoise/sample.h"
+#include "denoise/smooth_regions.h"
 #include "denoise/varying_noise.h"
 #include "measure/measure.h"
 
@@ -16,6 +17,7 @@ namespace {
 
 constexpr double least_step = 0.03;  ///< edge lengths: a lattice that is finer makes no noise to speak of
 constexpr double terraces = 0.7;  ///< rounding to steps as large as edges errs alike side by side: for it, as if more
+constexpr double machined = 0.4;  ///< share of what keeps creases in the blend: the surface may consist of patches
 constexpr double farthest = 4;    ///< deviations: Gaussian noise moves one vertex in 16,000 farther
 constexpr Index patches = 12;     ///< that large meshes are chosen for on
 /// What `fast` measures on, and how many of the former patches it chooses on.
@@ -181,6 +183,23 @@ Plan sampled_plan(const Faces& faces, const Positions& positions, const Incidenc
     return plan;
 }
 
+/// #F: 1 where the blend says that the surface may consist of patches, outside of planes along the axes.
+std::vector<std::uint8_t> machined_faces(const Faces& faces, const Choice& choice, const EvenPlaces& even) {
+    const auto may_be = [&](Index v) {
+        double share = choice.kinds.empty() ? sharp_share(choice.weights) : 0;
+        for (std::size_t c = 0; !choice.kinds.empty() && c < choice.of_class.size(); ++c)
+            share += choice.kinds[v][c] * sharp_share(choice.of_class[c]);
+        return share > machined;
+    };
+    std::vector<std::uint8_t> asked(faces.size());
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        const auto& [a, b, c] = faces[f];
+        const bool is_even = !even.axes.empty() && (even.axes[a] & even.axes[b] & even.axes[c]) != 0;
+        asked[f] = !is_even && std::all_of(faces[f].begin(), faces[f].end(), may_be);
+    }
+    return asked;
+}
+
 /// Outliers are put back before anything is measured; creases come back to them.
 Positions outliers_back(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
                         Index& count) {
@@ -242,6 +261,12 @@ Positions denoise_automatically(const Faces& faces, const Positions& given, cons
     stats.rms_after =
         std::sqrt(height * height * choice.after + side * side * error_within(within, shares) + along_axis.after);
     if (found.rounded) keep_within_cells(found.even, positions, found.voxels ? stats.step : stats.step / 2, after);
+    if (found.rounded && !found.voxels) {
+        const std::vector<std::uint8_t> asked = machined_faces(faces, choice, found.even);
+        const SmoothRegions regions = smooth_regions(faces, at, asked, positions, *step, after);
+        move_into(regions, at, found.even, positions, *step, std::min(options.strength, 1.0), after);
+        stats.patches = static_cast<Index>(regions.patch.size());
+    }
     stats.edge = mean_edge_length(faces, after);
     return after;
 }

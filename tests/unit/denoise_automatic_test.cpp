@@ -309,6 +309,32 @@ TEST(AutomaticDenoise, TakesRoundedCoordinatesBackWithinTheirCells) {
         }
 }
 
+// Terraces are as flat as the faces they are on; only that these are planes tells the truth.
+TEST(AutomaticDenoise, FindsPlanesThatWereRounded) {
+    Mesh truth = shapes::block(24);
+    const Eigen::AngleAxisd turn(0.7, Vec3(0.36, 0.48, 0.8));
+    for (Vec3& p : truth.positions) p = turn * p;
+    for (const double deviation : {0.05, 0.2}) {
+        SCOPED_TRACE(deviation);
+        const Mesh mesh = noisy(truth, Model::quantised, deviation);
+        AutomaticStats stats;
+        const Positions after =
+            denoise_automatically(mesh.faces, mesh.positions, {}, stats, [](double, const char*) {});
+        EXPECT_GE(stats.patches, 5);
+        const Error before = error_of(truth, mesh.positions), left = error_of(truth, after);
+        EXPECT_LT(left.angle, 0.1 * before.angle);
+        EXPECT_LT(left.rms, 0.3 * before.rms);
+        for (std::size_t i = 0; i < after.size(); ++i)
+            ASSERT_LE((after[i] - mesh.positions[i]).cwiseAbs().maxCoeff(), (0.5 + 1e-9) * stats.step);
+    }
+    for (const Mesh& shape : {shapes::scan(3000), shapes::irregular_sphere(3000)}) {
+        const Mesh mesh = noisy(shape, Model::quantised, 0.1);
+        AutomaticStats stats;
+        denoise_automatically(mesh.faces, mesh.positions, {}, stats, [](double, const char*) {});
+        EXPECT_EQ(stats.patches, 0);
+    }
+}
+
 TEST(AutomaticDenoise, TakesTheStairsOfVoxelsForNoise) {
     const Mesh truth = shapes::irregular_sphere(6000);
     const double edge = edge_of(truth), voxel = 1.2 * edge;

@@ -1,0 +1,333 @@
+#include "denoise/smooth_regions.h"
+
+#include "base/median.h"
+#include "base/parallel.h"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <optional>
+
+namespace multires {
+namespace {
+
+constexpr double first_size = 16, growth = 1.5;  ///< vertices that a region has first, times the degree, and then
+constexpr double most_open = 600;                ///< vertices: where no patch is certain with as many there is none
+constexpr double least_cosine = 0.85;            ///< of the normals of a face, denoised, and its patch
+constexpr double uniform = 0.89;  ///< deviation of the square of a uniform error, by its mean: the square root of 4/5
+constexpr double off = 3;         ///< deviations that the mean square of a region may be off
+/// Share by which that of all regions together may be larger, and deviations beside it: shapes that only resemble
+/// patches have regions that pass one by one.
+constexpr double excess = 0.06, surely = 2;
+constexpr double least_share = 0.1;  ///< of the faces in regions: fewer resemble patches by chance
+constexpr double certain = 0.5;  ///< terms of higher degree may turn a patch by such a share of what it turns normals
+constexpr int rounds = 16;       ///< of projections
+
+/// Powers of x and y in the order of their degree.
+constexpr std::array<std::array<int, 2>, 15> power = {{{0, 0},
+                                                       {1, 0},
+                                                       {0, 1},
+                                                       {2, 0},
+                                                       {1, 1},
+                                                       {0, 2},
+                                                       {3, 0},
+                                                       {2, 1},
+                                                       {1, 2},
+                                                       {0, 3},
+                                                       {4, 0},
+                                                       {3, 1},
+                                                       {2, 2},
+                                                       {1, 3},
+                                                       {0, 4}}};
+constexpr std::array<int, 5> terms = {1, 3, 6, 10, 15};  ///< up to each degree
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 15, 15>;
+using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 15, 1>;
+
+struct Region {
+    Patch patch;
+    std::vector<Index> faces, vertices;
+    double square = 0, freedom = 0;  ///< of the residuals, in deviations of rounding; what they would be
+};
+
+SmoothRegions none(std::size_t faces) { return {std::vector<Index>(faces, -1), {}}; }
+
+double whole_power(double x, int n) { return n == 0 ? 1 : n == 1 ? x : n == 2 ? x * x : x * whole_power(x, n - 1); }
+
+/// Values, and derivatives, of the terms.
+struct Terms {
+    Column value, by_x, by_y;
+    Terms(int count, double x, double y) : value(count), by_x(count), by_y(count) {
+        for (int i = 0; i < count; ++i) {
+            const auto [a, b] = power[i];
+            value[i] = whole_power(x, a) * whole_power(y, b);
+            by_x[i] = a > 0 ? a * whole_power(x, a - 1) * whole_power(y, b) : 0;
+            by_y[i] = b > 0 ? b * whole_power(x, a) * whole_power(y, b - 1) : 0;
+        }
+    }
+};
+
+/// Least squares of residuals of a patch.
+struct Fit {
+    Column coefficient;
+    double scale = 1;          ///< unit of x and y
+    double square = 0;         ///< mean of those of the residuals
+    double tilt = 0;           ///< RMS of the gradient of what was fitted
+    double tilt_by_noise = 0;  ///< the same of what is fitted to noise of deviation 1
+};
+
+Fit fit_of(const Region& r, const Positions& q, int degree) {
+    const int count = terms[degree];
+    const double n = static_cast<double>(r.vertices.size());
+    Fit fit;
+    double spread = 0;
+    for (const Index v : r.vertices) spread += (q[v] - r.patch.center).squaredNorm() / n;
+    fit.scale = std::sqrt(spread);
+    Matrix a = Matrix::Zero(count, count), g = a;
+    Column b = Column::Zero(count);
+    for (const Index v : r.vertices) {
+        const Vec3 d = q[v] - r.patch.center;
+        const Terms t(count, r.patch.x.dot(d) / fit.scale, r.patch.y.dot(d) / fit.scale);
+        const double h = r.patch.height(q[v]), slope = r.patch.gradient(q[v]).norm();
+        a += t.value * t.value.transpose();
+        g += (t.by_x * t.by_x.transpose() + t.by_y * t.by_y.transpose()) / (n * spread);
+        b += h * t.value;
+        fit.square += h * h / (slope * slope * n);
+    }
+    const Eigen::LDLT<Matrix> solver(a);
+    fit.coefficient = solver.solve(b);
+    fit.tilt = std::sqrt(std::max(0.0, fit.coefficient.dot(g * fit.coefficient)));
+    fit.tilt_by_noise = std::sqrt(std::max(0.0, Matrix(solver.solve(g)).trace()));
+    return fit;
+}
+
+enum class Verdict { wrong, open, right };
+
+Vec3 unit_normal(const Face& f, const Positions& p) {
+    const Vec3 n = (p[f[1]] - p[f[0]]).cross(p[f[2]] - p[f[0]]);
+    return n.norm() > 0 ? Vec3(n.normalized()) : Vec3(Vec3::Zero());
+}
+
+class Grower {
+public:
+    Grower(const Faces& faces, const Incidence& at, const std::vector<std::uint8_t>& asked, const Positions& rounded,
+           double step, const Positions& positions)
+        : faces_(faces), at_(at), q_(rounded), step_(step), normal_(faces.size()), of_face_(faces.size(), -1),
+          face_mark_(faces.size(), -1), vertex_mark_(rounded.size(), -1) {
+        parallel_for(static_cast<Index>(faces.size()), [&](Index f) {
+            normal_[f] = asked[f] != 0 ? unit_normal(faces[f], positions) : Vec3(Vec3::Zero());
+        });
+    }
+
+    SmoothRegions all() {
+        SmoothRegions out = none(faces_.size());
+        std::vector<std::uint8_t> tried(faces_.size());
+        double square = 0, freedom = 0;
+        for (const Index f : flattest_first()) {
+            if (of_face_[f] >= 0 || tried[f] || normal_[f].isZero()) continue;
+            const std::optional<Region> region = grown(f);
+            if (!region) {
+                for_faces_near(f, [&](Index g) { for_faces_near(g, [&](Index h) { tried[h] = 1; }); });
+                continue;
+            }
+            square += region->square;
+            freedom += region->freedom;
+            if (square > (1 + excess) * freedom + surely * uniform * std::sqrt(freedom)) return none(faces_.size());
+            for (const Index g : region->faces) of_face_[g] = static_cast<Index>(out.patch.size());
+            out.patch.push_back(region->patch);
+        }
+        const auto regions = std::count_if(of_face_.begin(), of_face_.end(), [](Index r) { return r >= 0; });
+        const auto asked = std::count_if(normal_.begin(), normal_.end(), [](const Vec3& n) { return !n.isZero(); });
+        if (static_cast<double>(regions) < least_share * static_cast<double>(asked)) return none(faces_.size());
+        out.of_face = of_face_;
+        return out;
+    }
+
+private:
+    template <class With>
+    void for_faces_near(Index f, const With& with) const {
+        for (const Index v : faces_[f])
+            for (const Index g : at_[v]) with(g);
+    }
+    Vec3 normal_around(Index f) const {
+        Vec3 sum = Vec3::Zero();
+        for_faces_near(f, [&](Index g) { sum += normal_[g]; });
+        return sum;
+    }
+    std::vector<Index> flattest_first() const {
+        std::vector<double> bend(faces_.size());
+        parallel_for(static_cast<Index>(faces_.size()), [&](Index f) {
+            double count = 0;
+            for_faces_near(f, [&](Index) { count += 1; });
+            bend[f] = 1 - normal_around(f).norm() / count;
+        });
+        std::vector<Index> order(faces_.size());
+        std::iota(order.begin(), order.end(), 0);
+        std::stable_sort(order.begin(), order.end(), [&](Index f, Index g) { return bend[f] < bend[g]; });
+        return order;
+    }
+
+    bool meets(const Patch& patch, Index v) const {
+        return std::abs(patch.height(q_[v])) <= 1.0001 * step_ / 2 * patch.gradient(q_[v]).cwiseAbs().sum();
+    }
+    Vec3 middle(Index f) const { return (q_[faces_[f][0]] + q_[faces_[f][1]] + q_[faces_[f][2]]) / 3; }
+    bool fits(const Patch& patch, Index f) const {
+        if (of_face_[f] >= 0) return false;
+        return normal_[f].dot(patch.gradient(middle(f)).normalized()) > least_cosine &&
+               std::all_of(faces_[f].begin(), faces_[f].end(), [&](Index v) { return meets(patch, v); });
+    }
+
+    /// Faces around the seed that fit, of so many vertices.
+    Region flooded(Index seed, const Patch& patch, Index most) {
+        Region r;
+        r.patch = patch;
+        ++mark_;
+        const auto add = [&](Index f) {
+            face_mark_[f] = mark_;
+            if (!fits(patch, f)) return;
+            r.faces.push_back(f);
+            for (const Index v : faces_[f])
+                if (vertex_mark_[v] != mark_) vertex_mark_[v] = mark_, r.vertices.push_back(v);
+        };
+        add(seed);
+        for (std::size_t i = 0; i < r.faces.size() && static_cast<Index>(r.vertices.size()) < most; ++i) {
+            const Face& f = faces_[r.faces[i]];
+            for (int k = 0; k < 3; ++k)
+                for (const Index g : at_[f[k]]) {
+                    const Face& h = faces_[g];
+                    if (face_mark_[g] != mark_ && std::find(h.begin(), h.end(), f[(k + 1) % 3]) != h.end()) add(g);
+                }
+        }
+        return r;
+    }
+
+    Patch plane(const Region& r) const {
+        Vec3 center = Vec3::Zero();
+        for (const Index v : r.vertices) center += q_[v];
+        center /= static_cast<double>(r.vertices.size());
+        Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
+        for (const Index v : r.vertices) m += (q_[v] - center) * (q_[v] - center).transpose();
+        Vec3 n = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors().col(0);
+        if (n.dot(r.patch.z) < 0) n = -n;
+        const Vec3 x = n.unitOrthogonal();
+        return {center, x, n.cross(x), n};
+    }
+    /// The best polynomial over a plane, and a plane that has its tangent in the middle.
+    Patch curved(const Region& r) const {
+        Region flat = r;
+        flat.patch = plane(r);
+        const Fit fit = fit_of(flat, q_, 2);
+        const Patch& p = flat.patch;
+        const Column& c = fit.coefficient;
+        Patch out;
+        out.center = p.center + c[0] * p.z;
+        out.z = (p.z - (c[1] * p.x + c[2] * p.y) / fit.scale).normalized();
+        out.x = (p.x + c[1] / fit.scale * p.z).normalized();
+        out.y = out.z.cross(out.x);
+        for (int i = 0; i < 3; ++i) out.bend[i] = c[3 + i] / (fit.scale * fit.scale);
+        return out;
+    }
+
+    /// Whether the vertices of a region tell that its patch is there. Creases show in terms of even degree.
+    /// @param[out] turns  how far the patch may be turned by what it has not
+    Verdict verdict(Region& r, int degree, double& turns) const {
+        const double n = static_cast<double>(r.vertices.size()), deviation = step_ / std::sqrt(12.0);
+        if (n < 1.5 * terms[2 * degree]) return Verdict::open;
+        const Fit more = fit_of(r, q_, 2 * degree);
+        r.square = n * more.square / (deviation * deviation);
+        r.freedom = n - terms[degree];
+        const double more_than_noise = (r.square - r.freedom) / (uniform * std::sqrt(n));
+        if (more_than_noise > off) return Verdict::wrong;
+        if (more_than_noise < -off) return Verdict::open;  // a terrace
+        std::vector<double> angle;
+        for (const Index f : r.faces) angle.push_back((normal_[f] - r.patch.gradient(middle(f)).normalized()).norm());
+        const double most = certain * lower_quantile(angle, 0.5), noise = deviation * more.tilt_by_noise;
+        turns = std::hypot(more.tilt, noise);
+        if (turns < most) return Verdict::right;
+        return more.tilt > most + 2 * noise ? Verdict::wrong : Verdict::open;
+    }
+
+    /// The largest region of one degree around a face.
+    std::optional<Region> grown(Index seed, Patch patch, int degree, double& turns) {
+        std::optional<Region> best;
+        std::size_t last = 0;
+        for (double most = degree * first_size;; most = std::floor(most * growth)) {
+            Region r = flooded(seed, patch, static_cast<Index>(most));
+            for (int again = 0; again < 2 && r.vertices.size() > 8; ++again)
+                r = flooded(seed, degree == 1 ? plane(r) : curved(r), static_cast<Index>(most));
+            double now = 0;
+            const Verdict is = verdict(r, degree, now);
+            const double size = static_cast<double>(r.vertices.size());
+            const bool ends = size < most || r.vertices.size() <= last || (!best && most > most_open);
+            last = r.vertices.size();
+            patch = r.patch;
+            if (is == Verdict::right) {
+                best = std::move(r);
+                turns = now;
+            }
+            if (ends || is == Verdict::wrong || (best && is == Verdict::open)) return best;
+        }
+    }
+
+    std::optional<Region> grown(Index seed) {
+        const Vec3 normal = normal_around(seed).normalized(), x = normal.unitOrthogonal();
+        const Patch start{middle(seed), x, normal.cross(x), normal};
+        double turns = 0, bent_turns = 0;
+        std::optional<Region> flat = grown(seed, start, 1, turns), bent = grown(seed, start, 2, bent_turns);
+        return bent && (!flat || bent_turns < turns) ? bent : flat;
+    }
+
+    const Faces& faces_;
+    const Incidence& at_;
+    const Positions& q_;
+    const double step_;
+    Array<Vec3> normal_;                          ///< #F, of the denoised surface; 0 where nothing is asked
+    std::vector<Index> of_face_;                  ///< #F
+    std::vector<Index> face_mark_, vertex_mark_;  ///< the last flood that came there
+    Index mark_ = 0;
+};
+
+}  // namespace
+
+double Patch::height(const Vec3& p) const {
+    const double u = x.dot(p - center), v = y.dot(p - center);
+    return z.dot(p - center) - bend[0] * u * u - bend[1] * u * v - bend[2] * v * v;
+}
+
+Vec3 Patch::gradient(const Vec3& p) const {
+    const double u = x.dot(p - center), v = y.dot(p - center);
+    return z - (2 * bend[0] * u + bend[1] * v) * x - (bend[1] * u + 2 * bend[2] * v) * y;
+}
+
+SmoothRegions smooth_regions(const Faces& faces, const Incidence& at, const std::vector<std::uint8_t>& asked,
+                             const Positions& rounded, double step, const Positions& positions) {
+    return Grower(faces, at, asked, rounded, step, positions).all();
+}
+
+void move_into(const SmoothRegions& regions, const Incidence& at, const EvenPlaces& even, const Positions& rounded,
+               double step, double share, Positions& positions) {
+    parallel_for(static_cast<Index>(positions.size()), [&](Index v) {
+        std::vector<Index> around;
+        for (const Index f : at[v])
+            if (regions.of_face[f] >= 0) around.push_back(regions.of_face[f]);
+        std::sort(around.begin(), around.end());
+        around.erase(std::unique(around.begin(), around.end()), around.end());
+        if (around.empty()) return;
+        Vec3 most = Vec3::Constant(step / 2);
+        for (int axis = 0; axis < 3 && !even.axes.empty(); ++axis)
+            if (even.axes[v] >> axis & 1U) most[axis] = 0;
+        Vec3 p = positions[v];
+        for (int round = 0; round < rounds; ++round) {
+            for (const Index r : around) {
+                const Vec3 gradient = regions.patch[r].gradient(p);
+                p -= regions.patch[r].height(p) / gradient.squaredNorm() * gradient;
+            }
+            p = p.cwiseMax(rounded[v] - most).cwiseMin(rounded[v] + most);
+        }
+        positions[v] += share * (p - positions[v]);
+    });
+}
+
+}  // namespace multires
