@@ -1,27 +1,92 @@
 #include "denoise/axis_noise.h"
 
 #include "base/decompositions.h"
+#include "base/parallel.h"
 #include "base/reduce.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace multires {
 namespace {
 
-constexpr int local_steps = 6;        ///< averaging of the energies, and so of the directions
-constexpr int reweighted = 8;         ///< steps of the fit
-constexpr double explains = 0.1;      ///< share by which the deviations from the fit must fall
-constexpr double by_chance = 3;       ///< by the root of #V: share of them that chance takes away
-constexpr double stands_out = 2;      ///< of the deviation along the axis, to that in the next direction
-constexpr double faced = 0.1;         ///< mean squared cosine of the normals to the axis, at least
-constexpr double least_within = 0.5;  ///< share of the noise that the places within the surface show
-constexpr double least_share = 0.05;  ///< of the mean energy: what is less counts no more than this in the fit
+constexpr int local_steps = 2;          ///< averaging that makes energies local
+constexpr int expected_steps = 20;      ///< more of it for those of white noise: a property of the mesh alone
+constexpr double least_share = 0.05;    ///< of the mean energy: what is less counts no more than this
+constexpr double stands_out = 1.8;      ///< of the deviation along the axis, to that in the next direction
+constexpr double faced = 0.1;           ///< mean squared cosine of the normals to the axis, at least
+constexpr double off_one = 0.5;         ///< of the share of the noise that the places within the surface show, at most
+constexpr double least_evidence = 4.5;  ///< of that share, in standard errors
 
-constexpr int columns = 7;  ///< six of the covariance, the bends
-using Row = Eigen::Matrix<double, columns, 1>;
-using Square = Eigen::Matrix<double, columns, columns>;
+constexpr int width = 6;  ///< of a covariance: xx, yy, zz, xy, xz, yz
+using Row = Eigen::Matrix<double, width, 1>;
+using Square = Eigen::Matrix<double, width, width>;
+using Three = Eigen::Matrix<double, 3, width>;
 
+/// C n, linear in the six numbers of C.
+Three times(const Vec3& n) {
+    Three m = Three::Zero();
+    m.diagonal() = n;
+    for (const auto& [column, i, j] : {std::array{3, 0, 1}, std::array{4, 0, 2}, std::array{5, 1, 2}}) {
+        m(i, column) = n[j];
+        m(j, column) = n[i];
+    }
+    return m;
+}
+
+Positions third_detail(const Neighbours& near, Positions p) {
+    for (int order = 0; order < 3; ++order) p = detail_of(near, p);
+    return p;
+}
+
+/// Products of third details' parts along the normal and in all directions, with their weights.
+struct Products {
+    std::vector<Vec3> product;          ///< of the vertices `inner`: what C n is expected to be
+    std::vector<double> along, within;  ///< weights of its parts along the normal, and within the surface
+    /// So much of the true mean is the weighted one, for weights are less where a sample of noise happens to be large.
+    double factor = 1;
+};
+
+Products products(const Neighbours& near, const Positions& p, const Array<Vec3>& normal,
+                  const std::vector<Index>& inner) {
+    Positions noise(p.size());
+    parallel_for(near.rows(), [&](Index v) { noise[v] = Vec3(gaussian(v, 5), gaussian(v, 6), gaussian(v, 7)); });
+    const Positions detail = third_detail(near, p);
+    noise = third_detail(near, std::move(noise));
+    std::vector<double> energy(3 * p.size()), expected(p.size());  // along the normal, within the surface, of noise
+    parallel_for(near.rows(), [&](Index v) {
+        const double along = normal[v].dot(detail[v]);
+        energy[3 * v] = along * along;
+        energy[3 * v + 1] = std::max(0.0, detail[v].squaredNorm() - along * along) / 2;
+        energy[3 * v + 2] = noise[v].x() * noise[v].x();
+        expected[v] = noise[v].squaredNorm() / 3;
+    });
+    average(near, energy, 3, local_steps);
+    average(near, expected, 1, local_steps + expected_steps);
+    Products out;
+    out.product.resize(inner.size());
+    out.along.resize(inner.size());
+    out.within.resize(inner.size());
+    double mean = 0, weights = 0, product = 0;
+    for (const Index v : inner)
+        if (expected[v] > 0) mean += energy[3 * v] / expected[v] / static_cast<double>(inner.size());
+    for (std::size_t i = 0; i < inner.size(); ++i) {
+        const Index v = inner[i];
+        if (!(expected[v] > 0)) continue;
+        const auto of = [&](int c, double floor) { return energy[3 * v + c] / expected[v] + least_share * floor; };
+        out.product[i] = normal[v].dot(detail[v]) / expected[v] * detail[v];
+        out.along[i] = 1 / std::pow(of(0, mean), 2);
+        out.within[i] = 1 / (of(0, mean) * of(1, mean));
+        const double weight = 1 / std::pow(of(2, 1), 2);
+        weights += weight;
+        product += weight * noise[v].x() * noise[v].x() / expected[v];
+    }
+    if (weights > 0) out.factor = product / weights;
+    return out;
+}
+
+/// Normal equations of C.
 struct Equations {
     Square matrix = Square::Zero();
     Row right = Row::Zero();
@@ -32,85 +97,77 @@ struct Equations {
     }
 };
 
-/// The products of the normals' coordinates, averaged as the energies are, and the bends.
-std::vector<Row> rows(const Neighbours& near, const Array<Vec3>& normal, const std::vector<Index>& inner,
-                      const Energies& bends) {
-    constexpr std::size_t width = 6;
-    std::vector<double> products(width * normal.size());
-    for (std::size_t v = 0; v < normal.size(); ++v) {
-        const Vec3& n = normal[v];
-        const std::array<double, width> p = {n.x() * n.x(),     n.y() * n.y(),     n.z() * n.z(),
-                                             2 * n.x() * n.y(), 2 * n.x() * n.z(), 2 * n.y() * n.z()};
-        std::copy(p.begin(), p.end(), products.begin() + static_cast<std::ptrdiff_t>(width * v));
+/// The same noise in all directions, and more along an axis.
+struct Covariance {
+    PrincipalAxes axes;
+    double across() const { return std::max(0.0, axes.values[1]); }
+    double more() const { return axes.values[2] - across(); }
+    Vec3 axis() const { return axes.vectors.col(2); }
+    Row row() const {
+        const Vec3 a = axis();
+        Row c;
+        c << a.x() * a.x(), a.y() * a.y(), a.z() * a.z(), a.x() * a.y(), a.x() * a.z(), a.y() * a.z();
+        c *= more();
+        c.head<3>().array() += across();
+        return c;
     }
-    average(near, products, width, local_steps);
-    std::vector<Row> out(inner.size());
-    for (std::size_t i = 0; i < inner.size(); ++i) {
-        for (std::size_t c = 0; c < width; ++c)
-            out[i][static_cast<Eigen::Index>(c)] = products[width * static_cast<std::size_t>(inner[i]) + c];
-        out[i][columns - 1] = bends.field[i];
-    }
-    return out;
-}
-
-struct Fit {
-    Row found = Row::Zero();
-    double deviation = 0;  ///< mean size of what is not explained
 };
 
-/// @param all_directions  the same noise in all of them
-Fit fitted(const std::vector<Row>& row, const std::vector<double>& energy, double mean, bool all_directions) {
-    Square kept = Square::Identity();  // all directions: the trace alone
-    if (all_directions) {
-        kept.topLeftCorner<6, 6>().setZero();
-        kept.block<3, 1>(0, 0).setOnes();
+/// By least squares. What no normal tells of, such as the variance along a tube, is filled in as it is where there is
+/// noise along an axis.
+Covariance covariance_of(const Products& of, const Array<Vec3>& normal, const std::vector<Index>& inner) {
+    constexpr double filled = 1e-3;
+    constexpr int fillings = 20;
+    Equations all = chunked_fold<Equations>(inner.size(), [&](Equations& part, std::size_t i) {
+        const Vec3& n = normal[static_cast<std::size_t>(inner[i])];
+        const Eigen::Matrix3d weight =
+            (of.along[i] - of.within[i]) * n * n.transpose() + of.within[i] * Eigen::Matrix3d::Identity();
+        const Three row = times(n);
+        part.matrix += row.transpose() * weight * row;
+        part.right += row.transpose() * (weight * of.product[i]);
+    });
+    all.right /= of.factor;
+    const double weight = filled / width * all.matrix.trace();
+    all.matrix.diagonal().array() += weight;
+    Covariance found;
+    for (int filling = 0; filling < fillings; ++filling) {
+        Row right = all.right;
+        if (filling > 0) right += weight * found.row();
+        const Row c = solve_symmetric(all.matrix, right);
+        Eigen::Matrix3d covariance;
+        covariance << c[0], c[3], c[4], c[3], c[1], c[5], c[4], c[5], c[2];
+        if (!covariance.allFinite()) return Covariance{{Vec3::Zero(), Eigen::Matrix3d::Identity()}};
+        found.axes = principal_axes(covariance);
     }
-    Fit fit;
-    fit.found.head<3>().setConstant(mean);
-    const auto explained = [&](std::size_t i) {
-        return std::max(0.0, row[i].head<6>().dot(fit.found.head<6>())) +
-               std::max(0.0, fit.found[columns - 1]) * row[i][columns - 1];
-    };
-    for (int step = 0; step < reweighted; ++step) {
-        Equations all = chunked_fold<Equations>(row.size(), [&](Equations& part, std::size_t i) {
-            const double weight = 1 / std::pow(explained(i) + least_share * mean, 2);
-            const Row r = kept.transpose() * row[i];
-            part.matrix += weight * r * r.transpose();
-            part.right += weight * energy[i] * r;
-        });
-        all.matrix.diagonal().array() += 1e-9 * all.matrix.trace();
-        fit.found = kept * solve_symmetric(all.matrix, all.right);
-        if (fit.found[columns - 1] < 0) {
-            all.matrix.row(columns - 1).setZero();
-            all.matrix.col(columns - 1).setZero();
-            all.matrix(columns - 1, columns - 1) = 1;
-            all.right[columns - 1] = 0;
-            fit.found = kept * solve_symmetric(all.matrix, all.right);
-        }
-    }
-    fit.deviation = chunked_fold<Mean>(row.size(), [&](Mean& part, std::size_t i) {
-                        part.add(std::abs(energy[i] - explained(i)));
-                    }).value();
-    return fit;
+    return found;
 }
 
 /// Noise along an axis crosses the surface as far as what is seen of it along the normals tells: the share of that
-/// which third differences within the surface show. It is 1 for such noise, about 0 for any other. Weighed by the
-/// variances along the normals, for where there is little of it hardly anything is known of what crosses.
-double share_within(const AxisNoise& noise, const Neighbours& near, const Positions& p, const Array<Vec3>& normal,
-                    const std::vector<Index>& inner) {
-    const double own = noise.across * noise.across, more = std::max(0.0, noise.deviation * noise.deviation - own);
-    Positions detail = p;
-    for (int order = 0; order < 3; ++order) detail = detail_of(near, detail);
-    double product = 0, square = 0;
-    for (const Index v : inner) {
-        const Vec3& n = normal[v];
-        const double along = n.dot(detail[v]), facing = n.dot(noise.axis);
-        const Vec3 expected = along * more * facing * (noise.axis - facing * n);  // times the variance
-        product += (own + more * facing * facing) * expected.dot(detail[v]);
-        square += expected.squaredNorm();
+/// which third differences within the surface show. It is 1 for such noise, about 0 for any other.
+struct Crossing {
+    double product = 0, square = 0, squares = 0;
+    Crossing& operator+=(const Crossing& o) {
+        product += o.product;
+        square += o.square;
+        squares += o.squares;
+        return *this;
     }
-    return square > 0 ? product / square : 0;
+    double share() const { return square > 0 ? product / square : 0; }
+    double evidence() const { return squares > 0 ? product / std::sqrt(squares) : 0; }  ///< standard errors
+};
+
+/// @param more  variance along the axis beyond that in other directions
+Crossing crossing(const Products& of, const Vec3& axis, double more, const Array<Vec3>& normal,
+                  const std::vector<Index>& inner) {
+    return chunked_fold<Crossing>(inner.size(), [&](Crossing& part, std::size_t i) {
+        const Vec3& n = normal[static_cast<std::size_t>(inner[i])];
+        const double facing = n.dot(axis);
+        const Vec3 expected = of.factor * more * facing * (axis - facing * n);
+        const double product = of.within[i] * expected.dot(of.product[i]);
+        part.product += product;
+        part.square += of.within[i] * expected.squaredNorm();
+        part.squares += product * product;
+    });
 }
 
 /// The share of moves within the surface after which its second differences are least.
@@ -129,30 +186,26 @@ double evening_share(const Neighbours& near, const Array<Vec3>& normal, const Po
 }  // namespace
 
 std::optional<AxisNoise> axis_noise(const Neighbours& near, const Positions& p, const Array<Vec3>& normal,
-                                    const std::vector<Index>& inner, const Energies& energy, const Energies& bends) {
-    const double mean = energy.mean();
-    if (!(mean > 0)) return std::nullopt;
-    const std::vector<Row> row = rows(near, normal, inner, bends);
-    const double chance = by_chance / std::sqrt(static_cast<double>(inner.size()));
-    const bool few = chance > explains;  // the energies do not tell enough: the places must, too
-    const double least_explained = explains + (few ? 0 : chance);
-    const Fit same = fitted(row, energy.field, mean, true), own = fitted(row, energy.field, mean, false);
-    if (!own.found.allFinite() || !(own.deviation < (1 - least_explained) * same.deviation)) return std::nullopt;
-    const Row& c = own.found;
-    Eigen::Matrix3d covariance;
-    covariance << c[0], c[3], c[4], c[3], c[1], c[5], c[4], c[5], c[2];
-    const auto [values, vectors] = principal_axes(covariance);
-    if (!(values[2] > stands_out * stands_out * std::max(0.0, values[1]))) return std::nullopt;
-    const Vec3 axis = vectors.col(2);
-    const auto facing = chunked_fold<Mean>(inner.size(), [&](Mean& part, std::size_t i) {
-        part.add(std::pow(axis.dot(normal[static_cast<std::size_t>(inner[i])]), 2));
-    });
-    if (facing.value() < faced) return std::nullopt;  // nothing is known of noise that runs along the surface
-    // Where it bends, noise shows as bends, too.
-    const double rest = std::max(0.1, 1 - std::max(0.0, c[columns - 1]));
-    const AxisNoise found{axis, std::sqrt(values[2] / rest), std::sqrt(std::max(0.0, values[1]) / rest)};
-    if (few && share_within(found, near, p, normal, inner) < least_within) return std::nullopt;
-    return found;
+                                    const std::vector<Index>& inner) {
+    const Products of = products(near, p, normal, inner);
+    const Covariance covariance = covariance_of(of, normal, inner);
+    const double along = covariance.axes.values[2], across = covariance.across();
+    if (!(along > stands_out * stands_out * across)) return std::nullopt;
+    const Vec3 axis = covariance.axis();
+    const auto mean_of = [&](const auto& value) {
+        return chunked_fold<Mean>(inner.size(),
+                                  [&](Mean& part, std::size_t i) {
+                                      part.add(value(axis.dot(normal[static_cast<std::size_t>(inner[i])])));
+                                  })
+            .value();
+    };
+    // Nothing is known of noise that runs along the surface.
+    if (mean_of([](double facing) { return facing * facing; }) < faced) return std::nullopt;
+    const double one_side = std::abs(mean_of([](double facing) { return facing; })) /
+                            mean_of([](double facing) { return std::abs(facing); });
+    const Crossing found = crossing(of, axis, covariance.more(), normal, inner);
+    if (!(std::abs(found.share() - 1) < off_one) || found.evidence() < least_evidence) return std::nullopt;
+    return AxisNoise{axis, std::sqrt(along), std::sqrt(across), found.share(), one_side};
 }
 
 Sideways move_along(const AxisNoise& axis, double own, double error, const Neighbours& near, const Array<Vec3>& normal,

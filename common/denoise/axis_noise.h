@@ -1,6 +1,6 @@
 #pragma once
 
-#include "denoise/energies.h"
+#include "denoise/neighbours.h"
 
 #include <optional>
 
@@ -12,6 +12,8 @@ struct AxisNoise {
     Vec3 axis;             ///< of length 1
     double deviation = 0;  ///< mesh units
     double across = 0;     ///< deviation in other directions, at most
+    double share = 1;      ///< of what such noise moves within the surface: so much of it is seen there
+    double one_side = 0;   ///< 1 if the surface faces the axis from one side only, as terrain does, about 0 if closed
 };
 
 /// Mean squares within the surface, mesh units.
@@ -30,14 +32,16 @@ struct Sideways {
 Sideways move_along(const AxisNoise& axis, double own, double error, const Neighbours& near, const Array<Vec3>& normal,
                     const Positions& from, Positions& to);
 
-/// Fits the energies of third details by n . C n + share x bends, with the normals n and a covariance C, the same
-/// everywhere, by least relative squares. It is an axis if this explains the energies better than the same noise
-/// for all directions does, and C has one large eigenvalue. Of few vertices (less than 900) the places within the
-/// surface must show what such noise makes of them, too.
-/// @param energy  of third details, of the vertices `inner`
-/// @param bends   of the same vertices
-/// Cost: linear
+/// Third details d, where hardly any shape is left, of noise of covariance C, the same everywhere: on a surface with
+/// normals n the mean of (n . d) d is C n, in units of what white noise of deviation 1 makes of d^2. Along the normal
+/// that is how strong the noise looks there, across it what the noise's parts have in common, whose sign tells apart
+/// axes that are alike from three planes, and which the sampling, however irregular, has no part in. C is fitted by
+/// least squares, weighed by the energies around each vertex, so that creases hardly count. It is an axis if one
+/// eigenvalue is large, and if the places within the surface show the noise, too: as much of it as goes with what is
+/// seen along the normals (half as much to one and a half times as much), by 4.5 standard errors. Nothing is known of
+/// noise that runs along the surface nearly everywhere.
+/// Cost: linear, about 50 passes over the neighbours
 std::optional<AxisNoise> axis_noise(const Neighbours& near, const Positions& p, const Array<Vec3>& normal,
-                                    const std::vector<Index>& inner, const Energies& energy, const Energies& bends);
+                                    const std::vector<Index>& inner);
 
 }  // namespace multires

@@ -2,6 +2,7 @@
 
 #include "base/median.h"
 #include "base/reduce.h"
+#include "denoise/along_normals.h"
 #include "denoise/varying_noise.h"
 #include "denoise/weak_impulses.h"
 #include "measure/measure.h"

@@ -124,7 +124,7 @@ Findings findings(const Faces& faces, const Positions& p, const Incidence& at, c
         whiteness.add(surface, near, inner, second, third, energy);
         const Energies bends = local_energies(near, local_squares(near, surface.detail(h)), inner);
         mean.without_bends += without_bends(energy, bends) / repeats;
-        if (repeat == 0) mean.axis = axis_noise(near, p, base.normal, inner, energy, bends);
+        if (repeat == 0) mean.axis = axis_noise(near, p, base.normal, inner);
         mean.mean += energy.mean() / repeats;
         mean.median += energy.quantile(0.5) / repeats;
         mean.lower += energy.quantile(0.3) / repeats;
@@ -179,12 +179,22 @@ double least_square(double square, const Findings& f, Index vertices, double edg
     return like * std::max(0.0, by_chance * square - elsewhere * std::max(0.0, others - square));
 }
 
-/// Noise along an axis explains much of the energies, so that it is as certain as their kind.
+/// Details that are not white are those of creases, of which more must speak for an axis, or of terrain, which is rough
+/// along an axis by nature.
+bool by_nature(const Findings& f) {
+    constexpr double least_white = 0.1, certain_share = 0.2, terrain = 0.5;
+    return f.white < least_white && (f.axis->one_side > terrain || std::abs(f.axis->share - 1) > certain_share);
+}
+
+/// Noise along an axis is as certain as the kind of the energies.
 void add_axis(const Findings& f, const Array<Vec3>& normal, SurfaceNoise& noise) {
-    if (!f.axis || !(f.axis->deviation > noise.along_normals)) return;
     constexpr double certain = 0.7;
+    if (!f.axis || !(f.axis->deviation > noise.along_normals) || by_nature(f)) return;
     noise.axis = f.axis;
     noise.along_normals = std::min(noise.along_normals, f.axis->across);
+    // What is across beyond the noise is shape's, which is not along the axis alone.
+    const double shape = std::pow(f.axis->across, 2) - std::pow(noise.along_normals, 2);
+    noise.axis->deviation = std::sqrt(std::pow(f.axis->deviation, 2) - shape);
     double square = 0;
     for (const Vec3& n : normal) square += std::pow(noise.along(n), 2) / static_cast<double>(normal.size());
     noise.at_least = std::max(noise.at_least, std::sqrt(certain * like_noise(f.peakedness_along_axis) * square));

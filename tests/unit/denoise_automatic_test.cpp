@@ -218,6 +218,18 @@ TEST(AutomaticDenoise, FindsNoiseAlongAnAxis) {
             }
 }
 
+TEST(AutomaticDenoise, RemovesWeakNoiseAlongAnAxisFromMachinedParts) {
+    const Mesh truth = shapes::block(18);
+    for (const std::uint64_t seed : {1, 2}) {
+        const Mesh mesh = noisy(truth, Model::along_axis, 0.05, seed);
+        const Result result = run(layer_of(mesh));
+        EXPECT_TRUE(value<bool>(result.report, "noise_along_axis"));
+        const Error before = error_of(truth, mesh.positions), after = error_of(truth, *result.positions);
+        EXPECT_LE(after.angle, 0.4 * before.angle);
+        EXPECT_LE(after.rms, 0.8 * before.rms);
+    }
+}
+
 TEST(AutomaticDenoise, TellsAnAxisFromChanceOnSmallMeshes) {
     const auto found = [](const Mesh& truth, Model model) {
         int times = 0;
