@@ -1,11 +1,11 @@
 #include "filters/layers/adaptive.h"
 
-#include "base/buckets.h"
 #include "base/parallel.h"
 #include "measure/distance.h"
 #include "measure/triangles.h"
 #include "measure/vertex_normals.h"
 #include "mesh/adjacency.h"
+#include "mesh/incidence.h"
 
 #include <Eigen/LU>
 
@@ -45,10 +45,7 @@ Vec3 normal_at(const Vec3& share, const Vec3& gap, const Face& f, const Vec3& fa
 class Near {
 public:
     Near(const Faces& faces, const Positions& at)
-        : faces_(faces), at_(at), around_(static_cast<Index>(at.size()), [&](const auto& put) {
-              for (std::size_t f = 0; f < faces.size(); ++f)
-                  for (const Index v : faces[f]) put(v, static_cast<Index>(f));
-          }) {}
+        : faces_(faces), at_(at), around_(vertex_faces(faces, static_cast<Index>(at.size()))) {}
 
     struct Hit {
         Index face = -1;
@@ -87,7 +84,7 @@ public:
 private:
     const Faces& faces_;
     const Positions& at_;
-    Buckets<> around_;
+    Incidence around_;
 };
 
 /// Feet of the centroids of the input's faces, which weigh as their areas.
