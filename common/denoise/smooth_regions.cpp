@@ -1,9 +1,11 @@
 #include "denoise/smooth_regions.h"
 
+#include "base/decompositions.h"
 #include "base/median.h"
 #include "base/parallel.h"
+#include "measure/vertex_normals.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>
@@ -106,7 +108,7 @@ Fit fit_of(const Region& r, const Positions& q, int degree) {
 enum class Verdict { wrong, open, right };
 
 Vec3 unit_normal(const Face& f, const Positions& p) {
-    const Vec3 n = (p[f[1]] - p[f[0]]).cross(p[f[2]] - p[f[0]]);
+    const Vec3 n = area_vector(f, p);
     return n.norm() > 0 ? Vec3(n.normalized()) : Vec3(Vec3::Zero());
 }
 
@@ -209,7 +211,7 @@ private:
         center /= static_cast<double>(r.vertices.size());
         Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
         for (const Index v : r.vertices) m += (q_[v] - center) * (q_[v] - center).transpose();
-        Vec3 n = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m).eigenvectors().col(0);
+        Vec3 n = principal_axes(m).vectors.col(0);
         if (n.dot(r.patch.z) < 0) n = -n;
         const Vec3 x = n.unitOrthogonal();
         return {center, x, n.cross(x), n};

@@ -3,6 +3,7 @@
 #include "base/median.h"
 #include "base/parallel.h"
 #include "denoise/value_slopes.h"
+#include "measure/vertex_normals.h"
 
 #include <Eigen/Cholesky>
 
@@ -103,10 +104,7 @@ private:
     Vec3 normal_around(Index v) const {
         Vec3 normal = Vec3::Zero();
         for (Index k = near_.offset[v]; k < near_.offset[v + 1]; ++k)
-            for (const Index f : at_[near_.vertex[k]]) {
-                const Face& g = faces_[f];
-                normal += (p_[g[1]] - p_[g[0]]).cross(p_[g[2]] - p_[g[0]]);
-            }
+            for (const Index f : at_[near_.vertex[k]]) normal += area_vector(faces_[f], p_);
         const double length = normal.norm();
         return length > 0 ? Vec3(normal / length) : Vec3(0, 0, 0);
     }

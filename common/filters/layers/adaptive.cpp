@@ -78,7 +78,8 @@ public:
         Reconstruction r;
         r.count = count;
         const std::vector<std::uint8_t> in = inserted(insertion_, count);
-        LevelMesh mesh = mesh_of_set(h_, layer_.mesh.faces, in);
+        const Array<Index> left = places_left(h_, [&](Index place) { return in[place] != 0; });
+        LevelMesh mesh = mesh_of_places(h_, layer_.mesh.faces, left);
         std::vector<Index> place_of(h_.vertices()), index_of(h_.vertices());
         for (Index p = 0; p < h_.vertices(); ++p) place_of[h_.order[p]] = p;
         std::vector<std::uint8_t> fixed;
@@ -95,7 +96,6 @@ public:
         r.mesh.faces = std::move(mesh.faces);
         r.mesh.source_face = std::move(mesh.source_face);
         if (options_.fit && count < h_.vertices()) {
-            const Array<Index> left = places_left(h_, [&](Index place) { return in[place] != 0; });
             std::vector<Index> into(h_.vertices());
             for (Index v = 0; v < h_.vertices(); ++v) into[v] = index_of[left[place_of[v]]];
             r.positions = fitted(layer_.mesh, r.mesh.faces, r.positions, into, fixed);

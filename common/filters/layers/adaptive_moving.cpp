@@ -1,4 +1,5 @@
 #include "filters/layers/adaptive_search.h"
+#include "hierarchy/collapse.h"
 #include "hierarchy/simplify.h"
 #include "mesh/validation.h"
 
@@ -45,11 +46,8 @@ private:
     /// Marks the vertices that features go through.
     std::vector<std::uint8_t> on_features(const DerivedMesh& mesh) const {
         std::vector<std::uint8_t> on(mesh.source_vertex.size(), 0);
-        if (rings_.feature.empty()) return on;
-        for (std::size_t v = 0; v < on.size(); ++v) {
-            const auto ring = rings_.feature.begin() + rings_.offset[mesh.source_vertex[v]];
-            on[v] = std::any_of(ring, ring + rings_.size(mesh.source_vertex[v]), [](std::uint8_t f) { return f != 0; });
-        }
+        for (std::size_t v = 0; v < on.size(); ++v)
+            on[v] = collapse::ring_of(rings_, mesh.source_vertex[v]).features() != 0;
         return on;
     }
 
