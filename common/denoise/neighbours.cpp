@@ -93,6 +93,16 @@ Neighbours neighbours(const Faces& faces, const Incidence& at) {
     return near;
 }
 
+void two_rings(const Neighbours& near, Index v, std::vector<Index>& ring) {
+    const auto row = [&](Index w) { return near.vertex.begin() + near.offset[w]; };
+    ring.assign(row(v), row(v + 1));
+    for (Index k = near.offset[v]; k < near.offset[v + 1]; ++k)
+        if (const Index w = near.vertex[k]; near.size(w) <= most_around) ring.insert(ring.end(), row(w), row(w + 1));
+    std::sort(ring.begin(), ring.end());
+    ring.erase(std::unique(ring.begin(), ring.end()), ring.end());
+    ring.erase(std::remove(ring.begin(), ring.end(), v), ring.end());
+}
+
 std::vector<double> cotangent_weights(const Faces& faces, const Incidence& at, const Neighbours& near,
                                       const Positions& p) {
     std::vector<double> weight(near.vertex.size(), 0);

@@ -20,6 +20,12 @@ struct Neighbours {
 /// Cost: O(d log d) for a vertex of valence d; parallel.
 Neighbours neighbours(const Faces& faces, const Incidence& at);
 
+/// More neighbours than surfaces have, but at poles.
+constexpr Index most_around = 64;
+/// Vertices up to two edges away, ascending, itself not among them. What lies behind a vertex with more than
+/// most_around neighbours, around which nearly all would be, is left out.
+void two_rings(const Neighbours& near, Index v, std::vector<Index>& ring);
+
 /// Weights of the entries: the cotangents of the angles opposite to each edge, limited to [0.05, 5], so that they are
 /// positive on slivers too; every row sums to 1.
 /// @returns  #entries

@@ -5,13 +5,8 @@
 
 namespace multires {
 
-/// Vertices up to two edges away, ascending, itself not among them. What lies behind a vertex with more than 64
-/// neighbours, around which nearly all would be, is left out.
-void two_rings(const Neighbours& near, Index v, std::vector<Index>& ring);
-
 /// How values rise around each vertex: the plane with the least sum of absolute deviations from the values up to two
-/// edges away, its own not among them (iteratively reweighted least squares, Schlossmacher 1973). A few of them that
-/// are far off do not turn it.
+/// edges away, its own not among them (least_deviations.h). A few of them that are far off do not turn it.
 /// @param normals  #V by 3, of unit length
 /// @param values   #V by width, finite
 /// @returns        #V by width: gradients within the surface; 0 where there are too few neighbours to tell

@@ -2,10 +2,8 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
-#include "denoise/value_slopes.h"
+#include "denoise/least_deviations.h"
 #include "measure/vertex_normals.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <cmath>
@@ -37,24 +35,14 @@ struct Height {
 
 /// The value of the quadric at the origin.
 /// @param[out] deviation  #values: from it
-double least_deviations(const std::vector<Quadric>& terms, const std::vector<double>& values,
-                        std::vector<double>& deviation) {
+double quadric_at_origin(const std::vector<Quadric>& terms, const std::vector<double>& values,
+                         std::vector<double>& deviation) {
     deviation.assign(values.size(), 1);
     Quadric fit = Quadric::Zero();
     for (int round = 0; round < rounds; ++round) {
         double largest = 0;
         for (const double d : deviation) largest = std::max(largest, std::abs(d));
-        const double least = std::max(1e-12, smallest * largest);
-        Eigen::Matrix<double, 6, 6> a = Eigen::Matrix<double, 6, 6>::Zero();
-        Quadric b = Quadric::Zero();
-        for (std::size_t i = 0; i < values.size(); ++i) {
-            const Quadric weighted = terms[i] / std::max(std::abs(deviation[i]), least);
-            a.noalias() += weighted * terms[i].transpose();
-            b += values[i] * weighted;
-        }
-        a.diagonal().array() += 1e-6 * a.trace();  // all on a conic
-        fit = a.llt().solve(b);
-        for (std::size_t i = 0; i < values.size(); ++i) deviation[i] = values[i] - fit.dot(terms[i]);
+        fit = towards_least_deviations(terms, values, deviation, std::max(1e-12, smallest * largest));
     }
     return fit[0];
 }
@@ -83,7 +71,7 @@ public:
             terms.back() << 1, x, y, x * x, x * y, y * y;
             values.push_back(d.dot(height.normal));
         }
-        height.value = -unit * least_deviations(terms, values, deviation);
+        height.value = -unit * quadric_at_origin(terms, values, deviation);
         if (goes_on(v, height.value / unit, ring, deviation)) return height;
         for (double& d : deviation) d = std::abs(d);
         height.usual = unit * std::max(least_usual, lower_quantile(deviation, most));
