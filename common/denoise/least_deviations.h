@@ -27,7 +27,7 @@ Eigen::Matrix<double, count, 1> towards_least_deviations(const std::vector<Eigen
         b += values[i] * weighted;
     }
     a.diagonal().array() += 1e-6 * a.trace();  // all on a line, or on a conic
-    const Eigen::Matrix<double, count, 1> fit = a.llt().solve(b);
+    Eigen::Matrix<double, count, 1> fit = a.llt().solve(b);
     for (std::size_t i = 0; i < values.size(); ++i) deviation[i] = values[i] - fit.dot(terms[i]);
     return fit;
 }
