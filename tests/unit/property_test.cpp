@@ -431,6 +431,12 @@ Variant random_variant(const Filter& filter, const Layer& layer, shapes::Random&
     return v;
 }
 
+/// Filters that take long are tried on one of four meshes: those of grids extend small ones by large rims, whoever
+/// reads a watermark tries five hundred wrong keys.
+int one_of(const Filter& filter) {
+    return wants_grid(filter) || filter.python_name == "compute_multires_watermark" ? 4 : 1;
+}
+
 /// False if it is refused.
 bool check_random(const Filter& filter, const Layer& layer, const Variant& variant) {
     Result result;
@@ -468,7 +474,7 @@ TEST(RandomMeshes, EveryFilterWorksOrRefuses) {
         const Layer any = with_data(i % 3 ? fixtures::damaged_mesh(seed) : fixtures::random_soup(seed));
         const Layer grid = with_data(random_grid(seed));
         for (const Filter* filter : all) {
-            if (wants_grid(*filter) && i % 4) continue;  // they extend small grids by large rims
+            if (i % one_of(*filter)) continue;
             const Layer& layer = wants_grid(*filter) && i % 8 ? grid : any;
             const Variant variant = random_variant(*filter, layer, random);
             SCOPED_TRACE("MULTIRES_SEED=" + std::to_string(seed) + ", " + filter->python_name + ", " + variant.name);
@@ -476,10 +482,10 @@ TEST(RandomMeshes, EveryFilterWorksOrRefuses) {
         }
     }
     if (testing::Test::HasFailure()) return;
-    // Level as New Layer finds no level in a third of the meshes, few of which have more than 100 vertices; of the
-    // others nearly all work.
+    // Level as New Layer finds no level in a third of the meshes, few of which have more than 100 vertices, filters of
+    // grids refuse the half that are none; of the others nearly all work.
     for (const Filter* filter : all)
-        EXPECT_GT(worked[filter->python_name], (wants_grid(*filter) ? 0.08 : 0.6) * random_meshes)
+        EXPECT_GT(worked[filter->python_name], (wants_grid(*filter) ? 0.32 : 0.6) * random_meshes / one_of(*filter))
             << filter->python_name;
 }
 
