@@ -294,9 +294,11 @@ TEST(BadAttributes, OfEveryKindAreRefusedBySomeFiltersAndDoNotHinderTheOthers) {
         SCOPED_TRACE(input.name);
         const Layer layer = input.layer();
         std::map<bool, int> worked;
+        std::size_t turn = 0;
         for (const Filter* filter : all_filters()) {
             int refused = 0;  // by some variant
             for (const Variant& variant : variants(*filter, layer)) {
+                if (turn++ % every != 0) continue;
                 const std::string error = call(*filter, layer, variant.values).error;
                 if (may_be_no_grid(*filter, input) && blames_no_grid(error)) continue;
                 const bool for_this =
