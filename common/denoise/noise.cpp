@@ -228,13 +228,16 @@ Energies energies_within(const Positions& detail, const Positions& noise, const 
 
 /// What third details within the surface tell of noise there. If they have just the energy of the noise along the
 /// normals, from the quietest tenth to the middle of the surface, they are likely to be noise: a sampling that is
-/// irregular by nature is mostly so by another amount, and not by the same everywhere. Where they have more, the rest
-/// is the sampling's: a rest that varies more over the surface than samplings do says that there is no such noise.
+/// irregular by nature is mostly so by another amount, and not by the same everywhere. If that is so up to the loudest
+/// tenth there is hardly a doubt, but for few vertices, of which tenths are smaller than what energies are means of.
+/// Where they have more, the rest is the sampling's: a rest that varies more over the surface than samplings do says
+/// that there is no such noise.
 /// @param relative  of the noise at each vertex, by along_normals; empty: 1
 void find_within_surface(const Positions& p, const Neighbours& near, const Array<Vec3>& normal,
                          const std::vector<double>& relative, SurfaceNoise& found) {
     constexpr double least = 0.93, most = 1.15, even = 1.09;
     constexpr double variation = 3, by_chance = 0.12;  // of the rests' squares
+    constexpr Index many = 1000;
     Positions noise(p.size());
     parallel_for(near.rows(), [&](Index v) {
         noise[v] = (relative.empty() ? 1 : relative[v]) * Vec3(gaussian(v, 3), gaussian(v, 4), 0);
@@ -251,6 +254,7 @@ void find_within_surface(const Positions& p, const Neighbours& near, const Array
     const double square = found.along_normals * found.along_normals;
     const double low = third.quantile(0.1) / square, middle = third.quantile(0.5) / square;
     found.likely_all = low > least * least && low < most * most && middle < even * even * low;
+    found.surely_all = found.likely_all && near.rows() >= many && third.quantile(0.9) < even * even * low * square;
     found.maybe_all = low > least * least && middle - 1 < variation * std::max(0.0, low - 1) + by_chance;
 }
 

@@ -22,6 +22,7 @@ struct SurfaceNoise {
     bool all_directions = false;  ///< it is known to go in all directions
     bool maybe_all = false;       ///< the vertices' places within the surface do not speak against that
     bool likely_all = false;      ///< they are just as irregular as the noise would make them
+    bool surely_all = false;      ///< the same, up to where they are most irregular
     /// Beside the former two, which are what there is of it in all directions.
     std::optional<AxisNoise> axis;
 

@@ -140,10 +140,11 @@ Positions noise_within(const Positions& p, const Neighbours& near, const Array<V
 /// Decides by what the vertices' places and the folded faces say. Noise folds about as many faces of this mesh as it
 /// does once the sampling was made even, and more if the sampling is uneven; faces that are folded by nature spoil this
 /// where it is weak, so the evidence must be stronger where the sampling alone would explain the places: it must be
-/// there without the faces within which the surface bends, too, and not by chance.
+/// there without the faces within which the surface bends, too, and not by chance. Where the places are just as
+/// irregular as noise makes them everywhere, a few folded faces are enough, which a sampling hardly has.
 void judge(const Faces& faces, const Positions& p, const Positions& more, const Positions& to_even,
            const Array<Vec3>& normal, const SurfaceNoise& noise, WithinSurface& out) {
-    constexpr double least_share = 0.001, most_share = 0.85, errors = 2;
+    constexpr double least_share = 0.001, most_share = 0.85, errors = 2, few = 0.2;
     Positions even = p;
     for (std::size_t i = 0; i < p.size(); ++i) even[i] += to_even[i] + more[i];
     const Folded folded = folded_faces(faces, p, normal), expected = folded_faces(faces, even, normal);
@@ -152,6 +153,7 @@ void judge(const Faces& faces, const Positions& p, const Positions& more, const 
     out.noisy = folded.all > least_share * static_cast<double>(faces.size()) &&
                 folded.all > (0.6 + 0.6 * irregular) * expected.all &&
                 (!(irregular > 0) || folded.flat > irregular * flat);
+    out.noisy |= noise.surely_all && folded.flat >= few * expected.flat;
     out.perhaps = !out.noisy && folded.all >= 0.3 * expected.all;
     out.likely = out.perhaps && noise.likely_all && folded.all >= 0.6 * expected.all;
 }
@@ -208,6 +210,7 @@ void find_noise(const Faces& faces, const Positions& p, const Neighbours& near, 
     smooth_within(p, near, normal, even_sampling + 1, low);
     out.noisy = noise.all_directions;
     if (judged && !out.noisy) judge(faces, p, more, low[even_sampling], normal, noise, out);
+    if (!judged && noise.surely_all) out.noisy = true;
     if (!judged && !out.noisy) out.perhaps = out.likely = true;
     if (out.noisy || out.perhaps) smooth_noise(p, more, near, normal, noise.along_normals, low, out);
 }

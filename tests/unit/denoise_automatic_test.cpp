@@ -116,8 +116,8 @@ TEST(AutomaticDenoise, RemovesWeakNoiseWithinTheSurfaceToo) {
     const Mesh truth = shapes::torus(80, 36);
     const Mesh mesh = noisy(truth, Model::all_directions, 0.05);
     const double before = rms_distance(mesh.positions, truth.positions);
-    // Along the normals alone 0.82 of the distance would be left.
-    EXPECT_LT(rms_distance(denoised(mesh), truth.positions), 0.7 * before);
+    // Along the normals alone 0.82 of the distance would be left, and 0.59 if it was not sure.
+    EXPECT_LT(rms_distance(denoised(mesh), truth.positions), 0.5 * before);
 }
 
 TEST(AutomaticDenoise, BelievesNoiseBetweenManyCreases) {
