@@ -7,6 +7,7 @@
 #include "denoise/sample.h"
 #include "denoise/smooth_regions.h"
 #include "denoise/varying_noise.h"
+#include "denoise/within_cells.h"
 #include "measure/measure.h"
 
 #include <algorithm>
@@ -263,8 +264,10 @@ Positions denoise_automatically(const Faces& faces, const Positions& given, cons
     if (found.rounded) keep_within_cells(found.even, positions, found.voxels ? stats.step : stats.step / 2, after);
     if (found.rounded && !found.voxels) {
         const std::vector<std::uint8_t> asked = machined_faces(faces, choice, found.even);
+        const double share = std::min(options.strength, 1.0);
         const SmoothRegions regions = smooth_regions(faces, at, asked, positions, *step, after);
-        move_into(regions, at, found.even, positions, *step, std::min(options.strength, 1.0), after);
+        move_into(regions, at, found.even, positions, *step, share, after);
+        smooth_within_cells(faces, at, maker.graph(), asked, found.even, positions, *step, share, after);
         stats.patches = static_cast<Index>(regions.patch.size());
     }
     stats.edge = mean_edge_length(faces, after);

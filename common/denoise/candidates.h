@@ -75,6 +75,7 @@ public:
     const Array<Vec3>& normal() const { return normal_; }
     const std::vector<double>& weight() const { return weight_; }
     const std::vector<double>& probe() const { return probe_; }
+    const FaceGraph& graph() const;
 
     struct Responses {
         std::vector<Response> all;  ///< in the order of all_candidates()
@@ -119,7 +120,6 @@ private:
     std::vector<Band> bands(const LowPasses& low) const;
     /// Without a probe there is no answer to it.
     Response wiener(const LowPasses& low, const std::vector<Band>& bands, double severity) const;
-    const FaceGraph& graph() const;
     bool moves(std::size_t v) const { return deviation_[v] > 0; }  ///< where there is no noise nothing is done
     std::vector<std::uint8_t> faces_without_noise() const;         ///< #F; empty: there are none
     Positions field(const Positions& from, double strength, const std::function<void(double)>& tick) const;

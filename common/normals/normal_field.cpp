@@ -52,37 +52,6 @@ void multiply_by_falling_weights(const double* x, Index count, double* w) {
     for (Index k = 0; k < count; ++k) w[k] *= falling_weight(x[k]);
 }
 
-/// One bilateral step. Faces without a normal stay so.
-Normals smoothed(const FaceGraph& graph, const std::vector<double>& spatial, const std::vector<double>& area,
-                 const Normals& n, double tolerance) {
-    const double scale = 1 / (2 * tolerance * tolerance);
-    Normals out(n.size());
-    parallel_chunks(static_cast<Index>(n.size()), 1024, [&](Index begin, Index end) {
-        std::vector<double> exponent, weight;
-        for (Index f = begin; f < end; ++f) {
-            const Vec3 own = n[f];
-            out[f] = own;
-            if (own.isZero()) continue;
-            const Index first = graph.offset[f], count = graph.offset[f + 1] - first;
-            const Index* neighbor = graph.neighbor.data() + first;
-            exponent.resize(std::max(exponent.size(), static_cast<std::size_t>(count)));
-            weight.resize(exponent.size());
-            double *x = exponent.data(), *w = weight.data();
-            for (Index k = 0; k < count; ++k) {
-                x[k] = (own - n[neighbor[k]]).squaredNorm() * scale;
-                w[k] = x[k] < negligible ? spatial[first + k] : 0;
-                x[k] = std::min(x[k], negligible);
-            }
-            multiply_by_falling_weights(x, count, w);
-            Vec3 sum = area[f] * own;
-            for (Index k = 0; k < count; ++k) sum += w[k] * n[neighbor[k]];
-            const double length = sum.norm();
-            if (length > 0) out[f] = sum / length;
-        }
-    });
-    return out;
-}
-
 /// Sum of the areas of each face and its neighbours.
 std::vector<double> areas_around(const FaceGraph& graph, const std::vector<double>& area) {
     std::vector<double> around(area.size());
@@ -146,6 +115,36 @@ Normals with_details(const FaceGraph& graph, const std::vector<double>& area, co
 
 }  // namespace
 
+Array<Vec3> bilateral_step(const FaceGraph& graph, const std::vector<double>& spatial, const std::vector<double>& area,
+                           const Array<Vec3>& n, double tolerance) {
+    const double scale = 1 / (2 * tolerance * tolerance);
+    Array<Vec3> out(n.size());
+    parallel_chunks(static_cast<Index>(n.size()), 1024, [&](Index begin, Index end) {
+        std::vector<double> exponent, weight;
+        for (Index f = begin; f < end; ++f) {
+            const Vec3 own = n[f];
+            out[f] = own;
+            if (own.isZero()) continue;
+            const Index first = graph.offset[f], count = graph.offset[f + 1] - first;
+            const Index* neighbor = graph.neighbor.data() + first;
+            exponent.resize(std::max(exponent.size(), static_cast<std::size_t>(count)));
+            weight.resize(exponent.size());
+            double *x = exponent.data(), *w = weight.data();
+            for (Index k = 0; k < count; ++k) {
+                x[k] = (own - n[neighbor[k]]).squaredNorm() * scale;
+                w[k] = x[k] < negligible ? spatial[first + k] : 0;
+                x[k] = std::min(x[k], negligible);
+            }
+            multiply_by_falling_weights(x, count, w);
+            Vec3 sum = area[f] * own;
+            for (Index k = 0; k < count; ++k) sum += w[k] * n[neighbor[k]];
+            const double length = sum.norm();
+            if (length > 0) out[f] = sum / length;
+        }
+    });
+    return out;
+}
+
 Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, const FaceGraph& graph,
                             const NormalFieldOptions& options, NormalFieldStats& stats,
                             const std::function<void(double)>& tick) {
@@ -170,7 +169,7 @@ Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, cons
             tolerance = std::max(factor * left, resting);
             rests = tolerance == resting;
         }
-        n = smoothed(graph, spatial, g.area, n, tolerance);
+        n = bilateral_step(graph, spatial, g.area, n, tolerance);
         if (std::find(snapshot.begin(), snapshot.end(), step) != snapshot.end()) levels.push_back(n);
     }
     Normals result = with_details(graph, g.area, levels, noise, options.statistics, stats);

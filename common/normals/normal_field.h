@@ -39,6 +39,14 @@ Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, cons
                             const NormalFieldOptions& options, NormalFieldStats& stats,
                             const std::function<void(double)>& tick);
 
+/// One bilateral step of the normals, of which it is made.
+/// @param spatial    spatial_weights()
+/// @param area       #F
+/// @param n          #F: unit normals; faces without one stay so
+/// @param tolerance  deviation of the weights over differences of normals
+Array<Vec3> bilateral_step(const FaceGraph& graph, const std::vector<double>& spatial, const std::vector<double>& area,
+                           const Array<Vec3>& n, double tolerance);
+
 /// Moves vertices so that faces get the given normals: each goes to the mean of its projections on the planes through
 /// its faces' centroids (Sun et al. 2007, eq. 8), `steps` times. Vertices of faces that are folded or nearly degenerate
 /// also move within the surface, towards the middle of their ring, until they are not.

@@ -347,6 +347,15 @@ TEST(AutomaticDenoise, FindsPlanesThatWereRounded) {
     }
 }
 
+// What follows the normals of terraces keeps them, where there is no patch, too.
+TEST(AutomaticDenoise, SmoothsWithinTheCells) {
+    const Mesh truth = shapes::torus(80, 36), mesh = noisy(truth, Model::quantised, 0.05);
+    const Result result = run(layer_of(mesh));
+    const Error before = error_of(truth, mesh.positions), after = error_of(truth, *result.positions);
+    EXPECT_LT(after.angle, 0.1 * before.angle);
+    EXPECT_LT(after.rms, 0.45 * before.rms);
+}
+
 TEST(AutomaticDenoise, TakesTheStairsOfVoxelsForNoise) {
     const Mesh truth = shapes::irregular_sphere(6000);
     const double edge = edge_of(truth), voxel = 1.2 * edge;
