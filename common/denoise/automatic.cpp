@@ -262,12 +262,16 @@ Positions denoise_automatically(const Faces& faces, const Positions& given, cons
     stats.rms_after =
         std::sqrt(height * height * choice.after + side * side * error_within(within, shares) + along_axis.after);
     if (found.rounded) keep_within_cells(found.even, positions, found.voxels ? stats.step : stats.step / 2, after);
-    if (found.rounded && !found.voxels) {
+    if (!found.voxels) {
+        const Positions& start = found.rounded ? positions : found.start;
+        const PlaceErrors errors =
+            found.rounded ? PlaceErrors::of_rounding(*step) : PlaceErrors::of_noise(found.deviation);
         const std::vector<std::uint8_t> asked = machined_faces(faces, choice, found.even);
         const double share = std::min(options.strength, 1.0);
-        const SmoothRegions regions = smooth_regions(faces, at, asked, positions, *step, after);
-        move_into(regions, at, found.even, positions, *step, share, after);
-        smooth_within_cells(faces, at, maker.graph(), asked, found.even, positions, *step, share, after);
+        const SmoothRegions regions = smooth_regions(faces, at, asked, start, errors, after);
+        move_into(regions, at, found.even, start, errors, share, after);
+        if (found.rounded)
+            smooth_within_cells(faces, at, maker.graph(), asked, found.even, positions, *step, share, after);
         stats.patches = static_cast<Index>(regions.patch.size());
     }
     stats.edge = mean_edge_length(faces, after);

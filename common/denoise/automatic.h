@@ -27,7 +27,7 @@ struct AutomaticStats {
     double by_edges = 1;                   ///< share of what looked like noise: see SurfaceNoise
     bool axis = false;                     ///< it goes along one axis of space
     double step = 0;                       ///< of the lattice that the coordinates were rounded to, mesh units; 0: none
-    Index patches = 0;                     ///< planes and curved patches that rounded vertices were moved into
+    Index patches = 0;                     ///< planes and curved patches that vertices were moved into
     bool voxels = false;                   ///< the lattice is that of voxels, the surface their boundary
     double rms_before = 0, rms_after = 0;  ///< estimated distance of the vertices from the truth, mesh units
     Eigen::VectorXd weights;  ///< of all_candidates(); what is left to 1 stays as it is. Empty: nothing was done

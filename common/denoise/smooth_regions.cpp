@@ -3,6 +3,7 @@
 #include "base/decompositions.h"
 #include "base/median.h"
 #include "base/parallel.h"
+#include "measure/measure.h"
 #include "measure/vertex_normals.h"
 
 #include <Eigen/Cholesky>
@@ -19,8 +20,9 @@ namespace {
 constexpr double first_size = 16, growth = 1.5;  ///< vertices that a region has first, times the degree, and then
 constexpr double most_open = 600;                ///< vertices: where no patch is certain with as many there is none
 constexpr double least_cosine = 0.85;            ///< of the normals of a face, denoised, and its patch
-constexpr double uniform = 0.89;  ///< deviation of the square of a uniform error, by its mean: the square root of 4/5
-constexpr double off = 3;         ///< deviations that the mean square of a region may be off
+constexpr double farthest = 4;                   ///< deviations: Gaussian noise moves one vertex in 16,000 farther
+constexpr double least_noise = 0.3;              ///< of the RMS: where noise is less it is taken for as much
+constexpr double off = 3;                        ///< deviations that the mean square of a region may be off
 /// Share by which that of all regions together may be larger, and deviations beside it: shapes that only resemble
 /// patches have regions that pass one by one.
 constexpr double excess = 0.06, surely = 2;
@@ -51,7 +53,7 @@ using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 15, 1>;
 struct Region {
     Patch patch;
     std::vector<Index> faces, vertices;
-    double square = 0, freedom = 0;  ///< of the residuals, in deviations of rounding; what they would be
+    double square = 0, freedom = 0;  ///< of the residuals, in deviations of the errors; what they would be
 };
 
 SmoothRegions none(std::size_t faces) { return {std::vector<Index>(faces, -1), {}}; }
@@ -75,12 +77,11 @@ struct Terms {
 struct Fit {
     Column coefficient;
     double scale = 1;          ///< unit of x and y
-    double square = 0;         ///< mean of those of the residuals
     double tilt = 0;           ///< RMS of the gradient of what was fitted
-    double tilt_by_noise = 0;  ///< the same of what is fitted to noise of deviation 1
+    double tilt_by_noise = 0;  ///< the same of what is fitted to the errors
 };
 
-Fit fit_of(const Region& r, const Positions& q, int degree) {
+Fit fit_of(const Region& r, const Positions& q, const PlaceErrors& errors, int degree) {
     const int count = terms[degree];
     const double n = static_cast<double>(r.vertices.size());
     Fit fit;
@@ -92,11 +93,10 @@ Fit fit_of(const Region& r, const Positions& q, int degree) {
     for (const Index v : r.vertices) {
         const Vec3 d = q[v] - r.patch.center;
         const Terms t(count, r.patch.x.dot(d) / fit.scale, r.patch.y.dot(d) / fit.scale);
-        const double h = r.patch.height(q[v]), slope = r.patch.gradient(q[v]).norm();
-        a += t.value * t.value.transpose();
+        const double h = r.patch.height(q[v]), weight = 1 / (errors.deviation(v) * errors.deviation(v));
+        a += weight * t.value * t.value.transpose();
         g += (t.by_x * t.by_x.transpose() + t.by_y * t.by_y.transpose()) / (n * spread);
-        b += h * t.value;
-        fit.square += h * h / (slope * slope * n);
+        b += weight * h * t.value;
     }
     const Eigen::LDLT<Matrix> solver(a);
     fit.coefficient = solver.solve(b);
@@ -114,10 +114,10 @@ Vec3 unit_normal(const Face& f, const Positions& p) {
 
 class Grower {
 public:
-    Grower(const Faces& faces, const Incidence& at, const std::vector<std::uint8_t>& asked, const Positions& rounded,
-           double step, const Positions& positions)
-        : faces_(faces), at_(at), q_(rounded), step_(step), normal_(faces.size()), of_face_(faces.size(), -1),
-          face_mark_(faces.size(), -1), vertex_mark_(rounded.size(), -1) {
+    Grower(const Faces& faces, const Incidence& at, const std::vector<std::uint8_t>& asked, const Positions& given,
+           const PlaceErrors& errors, const Positions& positions)
+        : faces_(faces), at_(at), q_(given), errors_(errors), normal_(faces.size()), of_face_(faces.size(), -1),
+          face_mark_(faces.size(), -1), vertex_mark_(given.size(), -1) {
         parallel_for(static_cast<Index>(faces.size()), [&](Index f) {
             normal_[f] = asked[f] != 0 ? unit_normal(faces[f], positions) : Vec3(Vec3::Zero());
         });
@@ -136,7 +136,8 @@ public:
             }
             square += region->square;
             freedom += region->freedom;
-            if (square > (1 + excess) * freedom + surely * uniform * std::sqrt(freedom)) return none(faces_.size());
+            if (square > (1 + excess) * freedom + surely * errors_.spread() * std::sqrt(freedom))
+                return none(faces_.size());
             for (const Index g : region->faces) of_face_[g] = static_cast<Index>(out.patch.size());
             out.patch.push_back(region->patch);
         }
@@ -172,7 +173,7 @@ private:
     }
 
     bool meets(const Patch& patch, Index v) const {
-        return std::abs(patch.height(q_[v])) <= 1.0001 * step_ / 2 * patch.gradient(q_[v]).cwiseAbs().sum();
+        return errors_.allows(patch.height(q_[v]), patch.gradient(q_[v]), v);
     }
     Vec3 middle(Index f) const { return (q_[faces_[f][0]] + q_[faces_[f][1]] + q_[faces_[f][2]]) / 3; }
     bool fits(const Patch& patch, Index f) const {
@@ -207,10 +208,12 @@ private:
 
     Patch plane(const Region& r) const {
         Vec3 center = Vec3::Zero();
-        for (const Index v : r.vertices) center += q_[v];
-        center /= static_cast<double>(r.vertices.size());
+        double sum = 0;
+        const auto weight = [&](Index v) { return 1 / (errors_.deviation(v) * errors_.deviation(v)); };
+        for (const Index v : r.vertices) center += weight(v) * q_[v], sum += weight(v);
+        center /= sum;
         Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
-        for (const Index v : r.vertices) m += (q_[v] - center) * (q_[v] - center).transpose();
+        for (const Index v : r.vertices) m += weight(v) * (q_[v] - center) * (q_[v] - center).transpose();
         Vec3 n = principal_axes(m).vectors.col(0);
         if (n.dot(r.patch.z) < 0) n = -n;
         const Vec3 x = n.unitOrthogonal();
@@ -220,7 +223,7 @@ private:
     Patch curved(const Region& r) const {
         Region flat = r;
         flat.patch = plane(r);
-        const Fit fit = fit_of(flat, q_, 2);
+        const Fit fit = fit_of(flat, q_, errors_, 2);
         const Patch& p = flat.patch;
         const Column& c = fit.coefficient;
         Patch out;
@@ -235,17 +238,21 @@ private:
     /// Whether the vertices of a region tell that its patch is there. Creases show in terms of even degree.
     /// @param[out] turns  how far the patch may be turned by what it has not
     Verdict verdict(Region& r, int degree, double& turns) const {
-        const double n = static_cast<double>(r.vertices.size()), deviation = step_ / std::sqrt(12.0);
+        const double n = static_cast<double>(r.vertices.size());
         if (n < 1.5 * terms[2 * degree]) return Verdict::open;
-        const Fit more = fit_of(r, q_, 2 * degree);
-        r.square = n * more.square / (deviation * deviation);
+        r.square = 0;
+        for (const Index v : r.vertices) {
+            const double off_by = r.patch.height(q_[v]) / (r.patch.gradient(q_[v]).norm() * errors_.deviation(v));
+            r.square += off_by * off_by;
+        }
         r.freedom = n - terms[degree];
-        const double more_than_noise = (r.square - r.freedom) / (uniform * std::sqrt(n));
+        const double more_than_noise = (r.square - r.freedom) / (errors_.spread() * std::sqrt(n));
         if (more_than_noise > off) return Verdict::wrong;
-        if (more_than_noise < -off) return Verdict::open;  // a terrace
+        if (errors_.rounded() && more_than_noise < -off) return Verdict::open;  // a terrace
+        const Fit more = fit_of(r, q_, errors_, 2 * degree);
         std::vector<double> angle;
         for (const Index f : r.faces) angle.push_back((normal_[f] - r.patch.gradient(middle(f)).normalized()).norm());
-        const double most = certain * lower_quantile(angle, 0.5), noise = deviation * more.tilt_by_noise;
+        const double most = certain * lower_quantile(angle, 0.5), noise = more.tilt_by_noise;
         turns = std::hypot(more.tilt, noise);
         if (turns < most) return Verdict::right;
         return more.tilt > most + 2 * noise ? Verdict::wrong : Verdict::open;
@@ -284,7 +291,7 @@ private:
     const Faces& faces_;
     const Incidence& at_;
     const Positions& q_;
-    const double step_;
+    const PlaceErrors& errors_;
     Array<Vec3> normal_;                          ///< #F, of the denoised surface; 0 where nothing is asked
     std::vector<Index> of_face_;                  ///< #F
     std::vector<Index> face_mark_, vertex_mark_;  ///< the last flood that came there
@@ -303,21 +310,47 @@ Vec3 Patch::gradient(const Vec3& p) const {
     return z - (2 * bend[0] * u + bend[1] * v) * x - (bend[1] * u + 2 * bend[2] * v) * y;
 }
 
-SmoothRegions smooth_regions(const Faces& faces, const Incidence& at, const std::vector<std::uint8_t>& asked,
-                             const Positions& rounded, double step, const Positions& positions) {
-    return Grower(faces, at, asked, rounded, step, positions).all();
+PlaceErrors PlaceErrors::of_rounding(double step) {
+    PlaceErrors errors;
+    errors.step_ = step;
+    errors.rounding_ = step / std::sqrt(12.0);
+    return errors;
 }
 
-void move_into(const SmoothRegions& regions, const Incidence& at, const EvenPlaces& even, const Positions& rounded,
-               double step, double share, Positions& positions) {
+PlaceErrors PlaceErrors::of_noise(std::vector<double> deviation) {
+    PlaceErrors errors;
+    const double least = least_noise * rms(deviation);
+    for (double& d : deviation) d = std::max(d, least);
+    errors.deviation_ = std::move(deviation);
+    return errors;
+}
+
+double PlaceErrors::spread() const { return rounded() ? std::sqrt(0.8) : std::sqrt(2.0); }
+
+bool PlaceErrors::allows(double height, const Vec3& gradient, Index v) const {
+    if (rounded()) return std::abs(height) <= 1.0001 * step_ / 2 * gradient.cwiseAbs().sum();
+    return std::abs(height) <= farthest * deviation_[v] * gradient.norm();
+}
+
+SmoothRegions smooth_regions(const Faces& faces, const Incidence& at, const std::vector<std::uint8_t>& asked,
+                             const Positions& given, const PlaceErrors& errors, const Positions& positions) {
+    if (std::find(asked.begin(), asked.end(), 1) == asked.end()) return none(faces.size());
+    return Grower(faces, at, asked, given, errors, positions).all();
+}
+
+void move_into(const SmoothRegions& regions, const Incidence& at, const EvenPlaces& even, const Positions& given,
+               const PlaceErrors& errors, double share, Positions& positions) {
     parallel_for(static_cast<Index>(positions.size()), [&](Index v) {
         std::vector<Index> around;
         for (const Index f : at[v])
             if (regions.of_face[f] >= 0) around.push_back(regions.of_face[f]);
+        // Where regions end other than at a crease there must be no step.
+        const double part =
+            errors.rounded() ? 1 : static_cast<double>(around.size()) / static_cast<double>(at[v].size());
         std::sort(around.begin(), around.end());
         around.erase(std::unique(around.begin(), around.end()), around.end());
         if (around.empty()) return;
-        Vec3 most = Vec3::Constant(step / 2);
+        Vec3 most = Vec3::Constant(errors.step() / 2);
         for (int axis = 0; axis < 3 && !even.axes.empty(); ++axis)
             if (even.axes[v] >> axis & 1U) most[axis] = 0;
         Vec3 p = positions[v];
@@ -326,9 +359,14 @@ void move_into(const SmoothRegions& regions, const Incidence& at, const EvenPlac
                 const Vec3 gradient = regions.patch[r].gradient(p);
                 p -= regions.patch[r].height(p) / gradient.squaredNorm() * gradient;
             }
-            p = p.cwiseMax(rounded[v] - most).cwiseMin(rounded[v] + most);
+            if (errors.rounded()) {
+                p = p.cwiseMax(given[v] - most).cwiseMin(given[v] + most);
+            } else {
+                const double length = (p - given[v]).norm(), longest = farthest * errors.deviation(v);
+                if (length > longest) p = given[v] + longest / length * (p - given[v]);
+            }
         }
-        positions[v] += share * (p - positions[v]);
+        positions[v] += share * part * (p - positions[v]);
     });
 }
 

@@ -356,6 +356,32 @@ TEST(AutomaticDenoise, SmoothsWithinTheCells) {
     EXPECT_LT(after.rms, 0.45 * before.rms);
 }
 
+// A plane through hundreds of noisy vertices is far better known than the normals of their faces.
+TEST(AutomaticDenoise, FindsPlanesUnderGaussianNoise) {
+    Mesh truth = shapes::block(24);
+    const Eigen::AngleAxisd turn(0.7, Vec3(0.36, 0.48, 0.8));
+    for (Vec3& p : truth.positions) p = turn * p;
+    for (const Model model : {Model::along_normals, Model::all_directions})
+        for (const double deviation : {0.1, 0.2}) {
+            SCOPED_TRACE(deviation);
+            const Mesh mesh = noisy(truth, model, deviation);
+            AutomaticStats stats;
+            const Positions after =
+                denoise_automatically(mesh.faces, mesh.positions, {}, stats, [](double, const char*) {});
+            EXPECT_GE(stats.patches, 5);
+            const Error before = error_of(truth, mesh.positions), left = error_of(truth, after);
+            EXPECT_LT(left.angle, 0.06 * before.angle);
+            EXPECT_LT(left.rms, 0.3 * before.rms);
+        }
+    for (const Mesh& shape : {shapes::scan(3000), shapes::irregular_sphere(3000)})
+        for (const double deviation : {0.1, 0.3}) {
+            const Mesh mesh = noisy(shape, Model::along_normals, deviation);
+            AutomaticStats stats;
+            denoise_automatically(mesh.faces, mesh.positions, {}, stats, [](double, const char*) {});
+            EXPECT_EQ(stats.patches, 0);
+        }
+}
+
 TEST(AutomaticDenoise, TakesTheStairsOfVoxelsForNoise) {
     const Mesh truth = shapes::irregular_sphere(6000);
     const double edge = edge_of(truth), voxel = 1.2 * edge;

@@ -42,7 +42,8 @@ void expect_each_as_good_as_alone(const Mesh& machined, const Mesh& organic, dou
         together(truth, denoised(mesh), shift);
     const auto expect_as_good = [](const Mesh& is, const Mesh& before, const Mesh& after) {
         const Error alone = error_of(is, denoised(before)), beside = error_of(is, after.positions);
-        EXPECT_LT(beside.angle, 1.1 * alone.angle);
+        const double noise = error_of(is, before.positions).angle;
+        EXPECT_LT(beside.angle, 1.1 * alone.angle + 0.002 * noise);  // planes are left with hardly any
         EXPECT_LT(beside.rms, 1.1 * alone.rms);
     };
     expect_as_good(clean.first, noisy.first, together.first);

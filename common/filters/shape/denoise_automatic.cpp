@@ -73,8 +73,8 @@ void tell(const AutomaticStats& stats, const Shares& shares, Report& report) {
         report.say(text("The coordinates were rounded to steps of %.4g edge lengths: no vertex leaves its cell.",
                         stats.step / stats.edge));
     if (stats.patches > 0)
-        report.say(text("%d planes and curved patches explain the rounded coordinates: vertices were moved into them.",
-                        static_cast<int>(stats.patches)));
+        report.say(text("%d planes and curved patches explain the %s places: vertices were moved into them.",
+                        static_cast<int>(stats.patches), stats.step > 0 ? "rounded" : "noisy"));
     report.say(text("Noise of %.3g edge lengths along the normals%s%s.", stats.deviation / stats.edge,
                     stats.all_directions ? " and within the surface" : "",
                     stats.axis ? ", most of it along one axis of space" : ""));
