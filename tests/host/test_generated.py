@@ -109,6 +109,7 @@ def test_every_kind_of_parameter_is_written():
         "README.md",
         "CONTRIBUTING.md",
         "docs/denoising.md",
+        "docs/denoising_evidence.md",
         "docs/parameters.md",
         "python/README.md",
         "examples/README.md",
