@@ -19,10 +19,13 @@ namespace {
 
 constexpr double first_size = 16, growth = 1.5;  ///< vertices that a region has first, times the degree, and then
 constexpr double most_open = 600;                ///< vertices: where no patch is certain with as many there is none
-constexpr double least_cosine = 0.85;            ///< of the normals of a face, denoised, and its patch
-constexpr double farthest = 4;                   ///< deviations: Gaussian noise moves one vertex in 16,000 farther
-constexpr double least_noise = 0.3;              ///< of the RMS: where noise is less it is taken for as much
-constexpr double off = 3;                        ///< deviations that the mean square of a region may be off
+/// Vertices that floods may come to in vain, by those there are. The flattest faces are asked first: what is left then
+/// has hardly any patches.
+constexpr double most_vain = 40;
+constexpr double least_cosine = 0.85;  ///< of the normals of a face, denoised, and its patch
+constexpr double farthest = 4;         ///< deviations: Gaussian noise moves one vertex in 16,000 farther
+constexpr double least_noise = 0.3;    ///< of the RMS: where noise is less it is taken for as much
+constexpr double off = 3;              ///< deviations that the mean square of a region may be off
 /// Share by which that of all regions together may be larger, and deviations beside it: shapes that only resemble
 /// patches have regions that pass one by one.
 constexpr double excess = 0.06, surely = 2;
@@ -58,19 +61,23 @@ struct Region {
 
 SmoothRegions none(std::size_t faces) { return {std::vector<Index>(faces, -1), {}}; }
 
-double whole_power(double x, int n) { return n == 0 ? 1 : n == 1 ? x : n == 2 ? x * x : x * whole_power(x, n - 1); }
+/// Powers of a number up to the eighth.
+std::array<double, 9> powers_of(double x) {
+    std::array<double, 9> p{1};
+    for (std::size_t k = 1; k < p.size(); ++k) p[k] = p[k - 1] * x;
+    return p;
+}
 
-/// Values, and derivatives, of the terms.
-struct Terms {
-    Column value, by_x, by_y;
-    Terms(int count, double x, double y) : value(count), by_x(count), by_y(count) {
-        for (int i = 0; i < count; ++i) {
-            const auto [a, b] = power[i];
-            value[i] = whole_power(x, a) * whole_power(y, b);
-            by_x[i] = a > 0 ? a * whole_power(x, a - 1) * whole_power(y, b) : 0;
-            by_y[i] = b > 0 ? b * whole_power(x, a) * whole_power(y, b - 1) : 0;
-        }
+/// Sums of all products of powers of x and y up to a degree: what any least squares of polynomials is made of.
+struct Moments {
+    std::array<std::array<double, 9>, 9> sum{};
+
+    void add(const std::array<double, 9>& x, const std::array<double, 9>& y, double weight, int degree) {
+        for (int i = 0; i <= degree; ++i)
+            for (int j = 0; j <= degree - i; ++j) sum[i][j] += weight * x[i] * y[j];
     }
+    /// 0 if the factor is, whose powers may then be negative.
+    double times(int factor, int i, int j) const { return factor == 0 ? 0 : factor * sum[i][j]; }
 };
 
 /// Least squares of residuals of a patch.
@@ -88,16 +95,24 @@ Fit fit_of(const Region& r, const Positions& q, const PlaceErrors& errors, int d
     double spread = 0;
     for (const Index v : r.vertices) spread += (q[v] - r.patch.center).squaredNorm() / n;
     fit.scale = std::sqrt(spread);
-    Matrix a = Matrix::Zero(count, count), g = a;
+    Moments weighted, plain;
     Column b = Column::Zero(count);
     for (const Index v : r.vertices) {
         const Vec3 d = q[v] - r.patch.center;
-        const Terms t(count, r.patch.x.dot(d) / fit.scale, r.patch.y.dot(d) / fit.scale);
+        const auto x = powers_of(r.patch.x.dot(d) / fit.scale), y = powers_of(r.patch.y.dot(d) / fit.scale);
         const double h = r.patch.height(q[v]), weight = 1 / (errors.deviation(v) * errors.deviation(v));
-        a += weight * t.value * t.value.transpose();
-        g += (t.by_x * t.by_x.transpose() + t.by_y * t.by_y.transpose()) / (n * spread);
-        b += weight * h * t.value;
+        weighted.add(x, y, weight, 2 * degree);
+        plain.add(x, y, 1 / (n * spread), 2 * degree - 2);
+        for (int i = 0; i < count; ++i) b[i] += weight * h * x[power[i][0]] * y[power[i][1]];
     }
+    Matrix a(count, count), g(count, count);  // products of the terms, and of their gradients
+    for (int i = 0; i < count; ++i)
+        for (int j = 0; j < count; ++j) {
+            const int x = power[i][0] + power[j][0], y = power[i][1] + power[j][1];
+            a(i, j) = weighted.sum[x][y];
+            g(i, j) =
+                plain.times(power[i][0] * power[j][0], x - 2, y) + plain.times(power[i][1] * power[j][1], x, y - 2);
+        }
     const Eigen::LDLT<Matrix> solver(a);
     fit.coefficient = solver.solve(b);
     fit.tilt = std::sqrt(std::max(0.0, fit.coefficient.dot(g * fit.coefficient)));
@@ -117,7 +132,8 @@ public:
     Grower(const Faces& faces, const Incidence& at, const std::vector<std::uint8_t>& asked, const Positions& given,
            const PlaceErrors& errors, const Positions& positions)
         : faces_(faces), at_(at), q_(given), errors_(errors), normal_(faces.size()), of_face_(faces.size(), -1),
-          face_mark_(faces.size(), -1), vertex_mark_(given.size(), -1) {
+          face_mark_(faces.size(), -1), vertex_mark_(given.size(), -1), asked_mark_(given.size(), -1),
+          met_(given.size()) {
         parallel_for(static_cast<Index>(faces.size()), [&](Index f) {
             normal_[f] = asked[f] != 0 ? unit_normal(faces[f], positions) : Vec3(Vec3::Zero());
         });
@@ -126,11 +142,14 @@ public:
     SmoothRegions all() {
         SmoothRegions out = none(faces_.size());
         std::vector<std::uint8_t> tried(faces_.size());
-        double square = 0, freedom = 0;
+        double square = 0, freedom = 0, left = most_vain * static_cast<double>(q_.size());
         for (const Index f : flattest_first()) {
             if (of_face_[f] >= 0 || tried[f] || normal_[f].isZero()) continue;
+            if (!(left > 0)) break;
+            const double before = flooded_;
             const std::optional<Region> region = grown(f);
             if (!region) {
+                left -= flooded_ - before;
                 for_faces_near(f, [&](Index g) { for_faces_near(g, [&](Index h) { tried[h] = 1; }); });
                 continue;
             }
@@ -176,10 +195,14 @@ private:
         return errors_.allows(patch.height(q_[v]), patch.gradient(q_[v]), v);
     }
     Vec3 middle(Index f) const { return (q_[faces_[f][0]] + q_[faces_[f][1]] + q_[faces_[f][2]]) / 3; }
-    bool fits(const Patch& patch, Index f) const {
+    bool fits(const Patch& patch, Index f) {
         if (of_face_[f] >= 0) return false;
-        return normal_[f].dot(patch.gradient(middle(f)).normalized()) > least_cosine &&
-               std::all_of(faces_[f].begin(), faces_[f].end(), [&](Index v) { return meets(patch, v); });
+        const Vec3 gradient = patch.gradient(middle(f));
+        if (!(normal_[f].dot(gradient) > least_cosine * gradient.norm())) return false;
+        return std::all_of(faces_[f].begin(), faces_[f].end(), [&](Index v) {
+            if (asked_mark_[v] != mark_) asked_mark_[v] = mark_, met_[v] = meets(patch, v);
+            return met_[v] != 0;
+        });
     }
 
     /// Faces around the seed that fit, of so many vertices.
@@ -203,6 +226,7 @@ private:
                     if (face_mark_[g] != mark_ && std::find(h.begin(), h.end(), f[(k + 1) % 3]) != h.end()) add(g);
                 }
         }
+        flooded_ += static_cast<double>(r.vertices.size());
         return r;
     }
 
@@ -295,6 +319,9 @@ private:
     Array<Vec3> normal_;                          ///< #F, of the denoised surface; 0 where nothing is asked
     std::vector<Index> of_face_;                  ///< #F
     std::vector<Index> face_mark_, vertex_mark_;  ///< the last flood that came there
+    std::vector<Index> asked_mark_;               ///< and that asked whether the patch may be met,
+    std::vector<std::uint8_t> met_;               ///< what it was told
+    double flooded_ = 0;                          ///< vertices, all floods together
     Index mark_ = 0;
 };
 
