@@ -3,10 +3,7 @@
 #include "base/decompositions.h"
 #include "base/median.h"
 #include "base/parallel.h"
-#include "measure/measure.h"
 #include "measure/vertex_normals.h"
-
-#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>
@@ -23,8 +20,6 @@ constexpr double most_open = 600;                ///< vertices: where no patch i
 /// has hardly any patches.
 constexpr double most_vain = 40;
 constexpr double least_cosine = 0.85;  ///< of the normals of a face, denoised, and its patch
-constexpr double farthest = 4;         ///< deviations: Gaussian noise moves one vertex in 16,000 farther
-constexpr double least_noise = 0.3;    ///< of the RMS: where noise is less it is taken for as much
 constexpr double off = 3;              ///< deviations that the mean square of a region may be off
 /// Share by which that of all regions together may be larger, and deviations beside it: shapes that only resemble
 /// patches have regions that pass one by one.
@@ -33,26 +28,6 @@ constexpr double least_share = 0.1;  ///< of the faces in regions: fewer resembl
 constexpr double certain = 0.5;  ///< terms of higher degree may turn a patch by such a share of what it turns normals
 constexpr int rounds = 16;       ///< of projections
 
-/// Powers of x and y in the order of their degree.
-constexpr std::array<std::array<int, 2>, 15> power = {{{0, 0},
-                                                       {1, 0},
-                                                       {0, 1},
-                                                       {2, 0},
-                                                       {1, 1},
-                                                       {0, 2},
-                                                       {3, 0},
-                                                       {2, 1},
-                                                       {1, 2},
-                                                       {0, 3},
-                                                       {4, 0},
-                                                       {3, 1},
-                                                       {2, 2},
-                                                       {1, 3},
-                                                       {0, 4}}};
-constexpr std::array<int, 5> terms = {1, 3, 6, 10, 15};  ///< up to each degree
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 15, 15>;
-using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 15, 1>;
-
 struct Region {
     Patch patch;
     std::vector<Index> faces, vertices;
@@ -60,65 +35,6 @@ struct Region {
 };
 
 SmoothRegions none(std::size_t faces) { return {std::vector<Index>(faces, -1), {}}; }
-
-/// Powers of a number up to the eighth.
-std::array<double, 9> powers_of(double x) {
-    std::array<double, 9> p{1};
-    for (std::size_t k = 1; k < p.size(); ++k) p[k] = p[k - 1] * x;
-    return p;
-}
-
-/// Sums of all products of powers of x and y up to a degree: what any least squares of polynomials is made of.
-struct Moments {
-    std::array<std::array<double, 9>, 9> sum{};
-
-    void add(const std::array<double, 9>& x, const std::array<double, 9>& y, double weight, int degree) {
-        for (int i = 0; i <= degree; ++i)
-            for (int j = 0; j <= degree - i; ++j) sum[i][j] += weight * x[i] * y[j];
-    }
-    /// 0 if the factor is, whose powers may then be negative.
-    double times(int factor, int i, int j) const { return factor == 0 ? 0 : factor * sum[i][j]; }
-};
-
-/// Least squares of residuals of a patch.
-struct Fit {
-    Column coefficient;
-    double scale = 1;          ///< unit of x and y
-    double tilt = 0;           ///< RMS of the gradient of what was fitted
-    double tilt_by_noise = 0;  ///< the same of what is fitted to the errors
-};
-
-Fit fit_of(const Region& r, const Positions& q, const PlaceErrors& errors, int degree) {
-    const int count = terms[degree];
-    const double n = static_cast<double>(r.vertices.size());
-    Fit fit;
-    double spread = 0;
-    for (const Index v : r.vertices) spread += (q[v] - r.patch.center).squaredNorm() / n;
-    fit.scale = std::sqrt(spread);
-    Moments weighted, plain;
-    Column b = Column::Zero(count);
-    for (const Index v : r.vertices) {
-        const Vec3 d = q[v] - r.patch.center;
-        const auto x = powers_of(r.patch.x.dot(d) / fit.scale), y = powers_of(r.patch.y.dot(d) / fit.scale);
-        const double h = r.patch.height(q[v]), weight = 1 / (errors.deviation(v) * errors.deviation(v));
-        weighted.add(x, y, weight, 2 * degree);
-        plain.add(x, y, 1 / (n * spread), 2 * degree - 2);
-        for (int i = 0; i < count; ++i) b[i] += weight * h * x[power[i][0]] * y[power[i][1]];
-    }
-    Matrix a(count, count), g(count, count);  // products of the terms, and of their gradients
-    for (int i = 0; i < count; ++i)
-        for (int j = 0; j < count; ++j) {
-            const int x = power[i][0] + power[j][0], y = power[i][1] + power[j][1];
-            a(i, j) = weighted.sum[x][y];
-            g(i, j) =
-                plain.times(power[i][0] * power[j][0], x - 2, y) + plain.times(power[i][1] * power[j][1], x, y - 2);
-        }
-    const Eigen::LDLT<Matrix> solver(a);
-    fit.coefficient = solver.solve(b);
-    fit.tilt = std::sqrt(std::max(0.0, fit.coefficient.dot(g * fit.coefficient)));
-    fit.tilt_by_noise = std::sqrt(std::max(0.0, Matrix(solver.solve(g)).trace()));
-    return fit;
-}
 
 enum class Verdict { wrong, open, right };
 
@@ -247,9 +163,9 @@ private:
     Patch curved(const Region& r) const {
         Region flat = r;
         flat.patch = plane(r);
-        const Fit fit = fit_of(flat, q_, errors_, 2);
+        const PatchFit fit = fit_over(flat.patch, flat.vertices, q_, errors_, 2);
         const Patch& p = flat.patch;
-        const Column& c = fit.coefficient;
+        const auto& c = fit.coefficient;
         Patch out;
         out.center = p.center + c[0] * p.z;
         out.z = (p.z - (c[1] * p.x + c[2] * p.y) / fit.scale).normalized();
@@ -263,17 +179,17 @@ private:
     /// @param[out] turns  how far the patch may be turned by what it has not
     Verdict verdict(Region& r, int degree, double& turns) const {
         const double n = static_cast<double>(r.vertices.size());
-        if (n < 1.5 * terms[2 * degree]) return Verdict::open;
+        if (n < 1.5 * terms_up_to(2 * degree)) return Verdict::open;
         r.square = 0;
         for (const Index v : r.vertices) {
             const double off_by = r.patch.height(q_[v]) / (r.patch.gradient(q_[v]).norm() * errors_.deviation(v));
             r.square += off_by * off_by;
         }
-        r.freedom = n - terms[degree];
+        r.freedom = n - terms_up_to(degree);
         const double more_than_noise = (r.square - r.freedom) / (errors_.spread() * std::sqrt(n));
         if (more_than_noise > off) return Verdict::wrong;
         if (errors_.rounded() && more_than_noise < -off) return Verdict::open;  // a terrace
-        const Fit more = fit_of(r, q_, errors_, 2 * degree);
+        const PatchFit more = fit_over(r.patch, r.vertices, q_, errors_, 2 * degree);
         std::vector<double> angle;
         for (const Index f : r.faces) angle.push_back((normal_[f] - r.patch.gradient(middle(f)).normalized()).norm());
         const double most = certain * lower_quantile(angle, 0.5), noise = more.tilt_by_noise;
@@ -327,38 +243,6 @@ private:
 
 }  // namespace
 
-double Patch::height(const Vec3& p) const {
-    const double u = x.dot(p - center), v = y.dot(p - center);
-    return z.dot(p - center) - bend[0] * u * u - bend[1] * u * v - bend[2] * v * v;
-}
-
-Vec3 Patch::gradient(const Vec3& p) const {
-    const double u = x.dot(p - center), v = y.dot(p - center);
-    return z - (2 * bend[0] * u + bend[1] * v) * x - (bend[1] * u + 2 * bend[2] * v) * y;
-}
-
-PlaceErrors PlaceErrors::of_rounding(double step) {
-    PlaceErrors errors;
-    errors.step_ = step;
-    errors.rounding_ = step / std::sqrt(12.0);
-    return errors;
-}
-
-PlaceErrors PlaceErrors::of_noise(std::vector<double> deviation) {
-    PlaceErrors errors;
-    const double least = least_noise * rms(deviation);
-    for (double& d : deviation) d = std::max(d, least);
-    errors.deviation_ = std::move(deviation);
-    return errors;
-}
-
-double PlaceErrors::spread() const { return rounded() ? std::sqrt(0.8) : std::sqrt(2.0); }
-
-bool PlaceErrors::allows(double height, const Vec3& gradient, Index v) const {
-    if (rounded()) return std::abs(height) <= 1.0001 * step_ / 2 * gradient.cwiseAbs().sum();
-    return std::abs(height) <= farthest * deviation_[v] * gradient.norm();
-}
-
 SmoothRegions smooth_regions(const Faces& faces, const Incidence& at, const std::vector<std::uint8_t>& asked,
                              const Positions& given, const PlaceErrors& errors, const Positions& positions) {
     if (std::find(asked.begin(), asked.end(), 1) == asked.end()) return none(faces.size());
@@ -389,7 +273,7 @@ void move_into(const SmoothRegions& regions, const Incidence& at, const EvenPlac
             if (errors.rounded()) {
                 p = p.cwiseMax(given[v] - most).cwiseMin(given[v] + most);
             } else {
-                const double length = (p - given[v]).norm(), longest = farthest * errors.deviation(v);
+                const double length = (p - given[v]).norm(), longest = errors.farthest(v);
                 if (length > longest) p = given[v] + longest / length * (p - given[v]);
             }
         }

@@ -1,40 +1,11 @@
 #pragma once
 
 #include "denoise/lattice.h"
+#include "denoise/patch.h"
 
-#include <array>
 #include <vector>
 
 namespace multires {
-
-/// A plane, or a height over one that is a polynomial of second degree.
-struct Patch {
-    Vec3 center, x, y, z;          ///< the axes are orthonormal
-    std::array<double, 3> bend{};  ///< z = bend . (x^2, x y, y^2)
-
-    double height(const Vec3& p) const;  ///< over the patch along z
-    Vec3 gradient(const Vec3& p) const;  ///< of the height: normal of the patch, not of unit length
-};
-
-/// What is known of the errors of the places given: they were rounded, or there is Gaussian noise along the normals.
-class PlaceErrors {
-public:
-    /// @param step  of the lattice of the coordinates
-    static PlaceErrors of_rounding(double step);
-    /// @param deviation  #V: where there is much less than elsewhere it is taken for somewhat more
-    static PlaceErrors of_noise(std::vector<double> deviation);
-
-    double deviation(Index v) const { return rounded() ? rounding_ : deviation_[v]; }
-    double spread() const;  ///< deviation of the square, by its mean
-    /// Whether a place may be so high over a patch.
-    bool allows(double height, const Vec3& gradient, Index v) const;
-    bool rounded() const { return step_ > 0; }
-    double step() const { return step_; }
-
-private:
-    double step_ = 0, rounding_ = 0;  ///< of the lattice; deviation of a uniform error
-    std::vector<double> deviation_;
-};
 
 /// Planes and curved patches that a surface is made of, of which places with errors are given. The truth is within half
 /// a step of each coordinate that was rounded, or within four deviations of the noise, and off the surface by these
