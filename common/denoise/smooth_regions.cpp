@@ -18,7 +18,7 @@ constexpr double first_size = 16, growth = 1.5;  ///< vertices that a region has
 constexpr double most_open = 600;                ///< vertices: where no patch is certain with as many there is none
 /// Vertices that floods may come to in vain, by those there are. The flattest faces are asked first: what is left then
 /// has hardly any patches.
-constexpr double most_vain = 40;
+constexpr double most_vain = 80;
 constexpr double least_cosine = 0.85;  ///< of the normals of a face, denoised, and its patch
 constexpr double off = 3;              ///< deviations that the mean square of a region may be off
 /// Share by which that of all regions together may be larger, and deviations beside it: shapes that only resemble
