@@ -19,7 +19,6 @@ namespace {
 constexpr double least_step = 0.03;  ///< edge lengths: a lattice that is finer makes no noise to speak of
 constexpr double terraces = 0.7;  ///< rounding to steps as large as edges errs alike side by side: for it, as if more
 constexpr double machined = 0.4;  ///< share of what keeps creases in the blend: the surface may consist of patches
-constexpr double farthest = 4;    ///< deviations: Gaussian noise moves one vertex in 16,000 farther
 constexpr Index patches = 12;     ///< that large meshes are chosen for on
 /// What `fast` measures on, and how many of the former patches it chooses on.
 constexpr Index fast_patches = 6, fast_size = 4000;
@@ -81,7 +80,7 @@ void keep_within_noise(const Positions& from, const std::vector<double>& deviati
     const double least = rms(deviation);
     for (std::size_t i = 0; i < from.size(); ++i) {
         const Vec3 move = positions[i] - from[i];
-        const double length = move.norm(), most = farthest * std::max(deviation[i], least);
+        const double length = move.norm(), most = farthest_by_noise * std::max(deviation[i], least);
         if (length > most) positions[i] = from[i] + most / length * move;
     }
 }

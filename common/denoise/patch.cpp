@@ -1,5 +1,6 @@
 #include "denoise/patch.h"
 
+#include "denoise/noise.h"
 #include "measure/measure.h"
 
 #include <Eigen/Cholesky>
@@ -11,7 +12,6 @@
 namespace multires {
 namespace {
 
-constexpr double off = 4;            ///< deviations: Gaussian noise moves one vertex in 16,000 farther
 constexpr double least_noise = 0.3;  ///< of the RMS: where noise is less it is taken for as much
 
 /// Powers of x and y in the order of their degree.
@@ -81,7 +81,7 @@ PlaceErrors PlaceErrors::of_noise(std::vector<double> deviation) {
 
 double PlaceErrors::spread() const { return rounded() ? std::sqrt(0.8) : std::sqrt(2.0); }
 
-double PlaceErrors::farthest(Index v) const { return off * deviation_[v]; }
+double PlaceErrors::farthest(Index v) const { return farthest_by_noise * deviation_[v]; }
 
 bool PlaceErrors::allows(double height, const Vec3& gradient, Index v) const {
     if (rounded()) return std::abs(height) <= 1.0001 * step_ / 2 * gradient.cwiseAbs().sum();
@@ -101,7 +101,7 @@ PatchFit fit_over(const Patch& patch, const std::vector<Index>& vertices, const 
     for (const Index v : vertices) {
         const Vec3 d = places[v] - patch.center;
         const auto x = powers_of(patch.x.dot(d) / fit.scale), y = powers_of(patch.y.dot(d) / fit.scale);
-        const double h = patch.height(places[v]), weight = 1 / (errors.deviation(v) * errors.deviation(v));
+        const double h = patch.height(places[v]), weight = errors.weight(v);
         weighted.add(x, y, weight, 2 * degree);
         plain.add(x, y, 1 / (n * spread), 2 * degree - 2);
         for (int i = 0; i < count; ++i) b[i] += weight * h * x[power[i][0]] * y[power[i][1]];

@@ -27,6 +27,7 @@ public:
     static PlaceErrors of_noise(std::vector<double> deviation);
 
     double deviation(Index v) const { return rounded() ? rounding_ : deviation_[v]; }
+    double weight(Index v) const { return 1 / (deviation(v) * deviation(v)); }  ///< in least squares
     double spread() const;  ///< deviation of the square, by its mean
     /// Whether a place may be so high over a patch.
     bool allows(double height, const Vec3& gradient, Index v) const;

@@ -149,11 +149,10 @@ private:
     Patch plane(const Region& r) const {
         Vec3 center = Vec3::Zero();
         double sum = 0;
-        const auto weight = [&](Index v) { return 1 / (errors_.deviation(v) * errors_.deviation(v)); };
-        for (const Index v : r.vertices) center += weight(v) * q_[v], sum += weight(v);
+        for (const Index v : r.vertices) center += errors_.weight(v) * q_[v], sum += errors_.weight(v);
         center /= sum;
         Eigen::Matrix3d m = Eigen::Matrix3d::Zero();
-        for (const Index v : r.vertices) m += weight(v) * (q_[v] - center) * (q_[v] - center).transpose();
+        for (const Index v : r.vertices) m += errors_.weight(v) * (q_[v] - center) * (q_[v] - center).transpose();
         Vec3 n = principal_axes(m).vectors.col(0);
         if (n.dot(r.patch.z) < 0) n = -n;
         const Vec3 x = n.unitOrthogonal();

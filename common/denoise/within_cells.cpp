@@ -1,6 +1,5 @@
 #include "denoise/within_cells.h"
 
-#include "base/parallel.h"
 #include "measure/vertex_normals.h"
 #include "normals/face_geometry.h"
 #include "normals/normal_field.h"
@@ -16,23 +15,6 @@ constexpr double tolerance = 0.35;            ///< deviation of the weights over
 constexpr double reach = 1.2;                 ///< of the weights over distances, see spatial_weights()
 /// Shares of the variance of rounding at which smoothing ends: texture looks like some of it.
 constexpr double most_machined = 1, most_other = 0.9;
-
-/// Vertices go to the mean of their projections on the planes of their faces (Sun et al. 2007, eq. 8). They do not make
-/// room within the surface: they are known there to half a step, too.
-Positions fitted(const Faces& faces, const Incidence& at, const Array<Vec3>& normal,
-                 const std::vector<std::uint8_t>& moves, const Positions& p) {
-    Positions next = p;
-    parallel_for(static_cast<Index>(p.size()), [&](Index v) {
-        if (moves[v] == 0) return;
-        Vec3 along = Vec3::Zero();
-        for (const Index f : at[v]) {
-            const auto& [a, b, c] = faces[f];
-            along += normal[f] * normal[f].dot((p[a] + p[b] + p[c]) / 3 - p[v]);
-        }
-        next[v] += along / static_cast<double>(at[v].size());
-    });
-    return next;
-}
 
 /// Mean square of the moves along the normals, by what rounding makes it, of vertices that may move.
 double residual(const Faces& faces, const std::vector<std::uint8_t>& moves, const EvenPlaces& even,
@@ -61,7 +43,8 @@ Positions smoothed(const Faces& faces, const Incidence& at, const FaceGraph& gra
         const Array<Vec3> normal = bilateral_step(graph, spatial, g.area, g.normal, tolerance);
         Positions next = p;
         for (int fit = 0; fit < fit_steps; ++fit) {
-            next = fitted(faces, at, normal, moves, next);
+            // Within the surface places are known to half a step, too: slivers make no room.
+            next = fit_vertices(faces, next, at, normal, 1, moves, Slivers::stay);
             keep_within_cells(even, rounded, step / 2, next);
         }
         const double now = residual(faces, moves, even, rounded, step, next);

@@ -27,14 +27,14 @@ Vec3 within_surface(const Vec3& to_middle, const Vec3& normal_sum) {
 }  // namespace
 
 Positions fit_vertices(const Faces& faces, const Positions& positions, const Incidence& at, const Array<Vec3>& normals,
-                       int steps, const std::vector<std::uint8_t>& moves) {
+                       int steps, const std::vector<std::uint8_t>& moves, Slivers slivers) {
     const Index vertices = static_cast<Index>(positions.size()), count = static_cast<Index>(faces.size());
     Positions p = positions, next(positions.size()), centroid(faces.size());
     std::vector<std::uint8_t> crowded(faces.size());
     for (int step = 0; step < steps; ++step) {
         parallel_for(count, [&](Index f) {
             centroid[f] = (p[faces[f][0]] + p[faces[f][1]] + p[faces[f][2]]) / 3;
-            crowded[f] = needs_room(faces[f], p, normals[f]);
+            crowded[f] = slivers == Slivers::make_room && needs_room(faces[f], p, normals[f]);
         });
         parallel_for(vertices, [&](Index v) {
             next[v] = p[v];

@@ -47,12 +47,15 @@ Array<Vec3> denoise_normals(const Faces& faces, const Positions& positions, cons
 Array<Vec3> bilateral_step(const FaceGraph& graph, const std::vector<double>& spatial, const std::vector<double>& area,
                            const Array<Vec3>& n, double tolerance);
 
+/// Whether slivers may move within the surface.
+enum class Slivers { make_room, stay };
+
 /// Moves vertices so that faces get the given normals: each goes to the mean of its projections on the planes through
 /// its faces' centroids (Sun et al. 2007, eq. 8), `steps` times. Vertices of faces that are folded or nearly degenerate
-/// also move within the surface, towards the middle of their ring, until they are not.
+/// also move within the surface, towards the middle of their ring, until they are not, unless they are to stay there.
 /// @param normals  #F; zero normals have no say
 /// @param moves    #V: vertices that are not to stay; empty: all
 Positions fit_vertices(const Faces& faces, const Positions& positions, const Incidence& at, const Array<Vec3>& normals,
-                       int steps, const std::vector<std::uint8_t>& moves = {});
+                       int steps, const std::vector<std::uint8_t>& moves = {}, Slivers slivers = Slivers::make_room);
 
 }  // namespace multires

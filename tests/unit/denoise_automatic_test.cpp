@@ -321,17 +321,35 @@ TEST(AutomaticDenoise, TakesRoundedCoordinatesBackWithinTheirCells) {
         }
 }
 
+namespace {
+
+Positions denoised(const Mesh& mesh, AutomaticStats& stats) {
+    return denoise_automatically(mesh.faces, mesh.positions, {}, stats, [](double, const char*) {});
+}
+
+Mesh turned_block() {
+    Mesh mesh = shapes::block(24);
+    const Eigen::AngleAxisd turn(0.7, Vec3(0.36, 0.48, 0.8));
+    for (Vec3& p : mesh.positions) p = turn * p;
+    return mesh;
+}
+
+void expect_no_patches(const Mesh& truth, Model model, double deviation) {
+    AutomaticStats stats;
+    denoised(noisy(truth, model, deviation), stats);
+    EXPECT_EQ(stats.patches, 0);
+}
+
+}  // namespace
+
 // Terraces are as flat as the faces they are on; only that these are planes tells the truth.
 TEST(AutomaticDenoise, FindsPlanesThatWereRounded) {
-    Mesh truth = shapes::block(24);
-    const Eigen::AngleAxisd turn(0.7, Vec3(0.36, 0.48, 0.8));
-    for (Vec3& p : truth.positions) p = turn * p;
+    const Mesh truth = turned_block();
     for (const double deviation : {0.05, 0.2}) {
         SCOPED_TRACE(deviation);
         const Mesh mesh = noisy(truth, Model::quantised, deviation);
         AutomaticStats stats;
-        const Positions after =
-            denoise_automatically(mesh.faces, mesh.positions, {}, stats, [](double, const char*) {});
+        const Positions after = denoised(mesh, stats);
         EXPECT_GE(stats.patches, 5);
         const Error before = error_of(truth, mesh.positions), left = error_of(truth, after);
         EXPECT_LT(left.angle, 0.1 * before.angle);
@@ -339,12 +357,8 @@ TEST(AutomaticDenoise, FindsPlanesThatWereRounded) {
         for (std::size_t i = 0; i < after.size(); ++i)
             ASSERT_LE((after[i] - mesh.positions[i]).cwiseAbs().maxCoeff(), (0.5 + 1e-9) * stats.step);
     }
-    for (const Mesh& shape : {shapes::scan(3000), shapes::irregular_sphere(3000)}) {
-        const Mesh mesh = noisy(shape, Model::quantised, 0.1);
-        AutomaticStats stats;
-        denoise_automatically(mesh.faces, mesh.positions, {}, stats, [](double, const char*) {});
-        EXPECT_EQ(stats.patches, 0);
-    }
+    for (const Mesh& shape : {shapes::scan(3000), shapes::irregular_sphere(3000)})
+        expect_no_patches(shape, Model::quantised, 0.1);
 }
 
 // What follows the normals of terraces keeps them, where there is no patch, too.
@@ -358,28 +372,20 @@ TEST(AutomaticDenoise, SmoothsWithinTheCells) {
 
 // A plane through hundreds of noisy vertices is far better known than the normals of their faces.
 TEST(AutomaticDenoise, FindsPlanesUnderGaussianNoise) {
-    Mesh truth = shapes::block(24);
-    const Eigen::AngleAxisd turn(0.7, Vec3(0.36, 0.48, 0.8));
-    for (Vec3& p : truth.positions) p = turn * p;
+    const Mesh truth = turned_block();
     for (const Model model : {Model::along_normals, Model::all_directions})
         for (const double deviation : {0.1, 0.2}) {
             SCOPED_TRACE(deviation);
             const Mesh mesh = noisy(truth, model, deviation);
             AutomaticStats stats;
-            const Positions after =
-                denoise_automatically(mesh.faces, mesh.positions, {}, stats, [](double, const char*) {});
+            const Positions after = denoised(mesh, stats);
             EXPECT_GE(stats.patches, 5);
             const Error before = error_of(truth, mesh.positions), left = error_of(truth, after);
             EXPECT_LT(left.angle, 0.06 * before.angle);
             EXPECT_LT(left.rms, 0.3 * before.rms);
         }
     for (const Mesh& shape : {shapes::scan(3000), shapes::irregular_sphere(3000)})
-        for (const double deviation : {0.1, 0.3}) {
-            const Mesh mesh = noisy(shape, Model::along_normals, deviation);
-            AutomaticStats stats;
-            denoise_automatically(mesh.faces, mesh.positions, {}, stats, [](double, const char*) {});
-            EXPECT_EQ(stats.patches, 0);
-        }
+        for (const double deviation : {0.1, 0.3}) expect_no_patches(shape, Model::along_normals, deviation);
 }
 
 TEST(AutomaticDenoise, TakesTheStairsOfVoxelsForNoise) {
