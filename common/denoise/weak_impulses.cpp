@@ -20,9 +20,10 @@ constexpr double certain = 8, likely = 4;  ///< times what is usual: impulses; o
 constexpr double impulsive = 0.015;        ///< share of the former in the quietest third
 constexpr std::size_t least_count = 10;    ///< of them: fewer may be single features
 constexpr double lopsided = 3;             ///< standard deviations of how many are to one side
-constexpr double highest = 4;              ///< times the median of them: more is of another kind
-constexpr int alike = 2;                   ///< neighbours as far off to the same side: shape
-constexpr int passes = 2;                  ///< an impulse may hide behind others
+/// Times the median of them, and the highest: more is of another kind.
+constexpr double highest_of_median = 4, highest_of_most = 1.5;
+constexpr int alike = 2;   ///< neighbours as far off to the same side: shape
+constexpr int passes = 2;  ///< an impulse may hide behind others
 
 using Quadric = Eigen::Matrix<double, 6, 1>;
 
@@ -103,8 +104,8 @@ private:
     const Neighbours& near_;
 };
 
-/// How high impulses usually are, by the quietest third of the surface; 0 if there are none.
-double impulse_height(const Heights& heights, Index count) {
+/// How high impulses are at most, by those in the quietest third of the surface; 0 if there are none.
+double highest_impulse(const Heights& heights, Index count) {
     const Index step = std::max<Index>(1, count / looked_at);
     std::vector<Height> seen(count / step);
     parallel_for(static_cast<Index>(seen.size()), [&](Index i) { seen[i] = heights(i * step); });
@@ -121,21 +122,23 @@ double impulse_height(const Heights& heights, Index count) {
     }
     const auto found = static_cast<double>(high.size());
     if (high.size() < least_count || found < impulsive * static_cast<double>(third)) return 0;
-    return std::abs(balance) > lopsided * std::sqrt(found) ? 0 : lower_quantile(high, 0.5);
+    if (std::abs(balance) > lopsided * std::sqrt(found)) return 0;
+    const double most_high = *std::max_element(high.begin(), high.end());
+    return std::min(highest_of_median * lower_quantile(high, 0.5), highest_of_most * most_high);
 }
 
 }  // namespace
 
 Positions without_weak_impulses(const Faces& faces, const Positions& positions, const Incidence& at,
                                 const Neighbours& near) {
-    const double height = impulse_height(Heights(faces, positions, at, near), near.rows());
-    if (!(height > 0)) return positions;
+    const double highest = highest_impulse(Heights(faces, positions, at, near), near.rows());
+    if (!(highest > 0)) return positions;
     Positions p = positions, next = positions;
     for (int pass = 0; pass < passes; ++pass) {
         const Heights heights(faces, p, at, near);
         parallel_for(near.rows(), [&](Index v) {
             const Height h = heights(v);
-            const bool is_impulse = h.above(likely) && std::abs(h.value) <= highest * height;
+            const bool is_impulse = h.above(likely) && std::abs(h.value) <= highest;
             next[v] = is_impulse ? Vec3(p[v] - h.value * h.normal) : p[v];
         });
         p.swap(next);

@@ -10,7 +10,8 @@ namespace multires {
 /// compared with the quadric of least absolute deviations (iteratively reweighted least squares, Schlossmacher 1973)
 /// from the vertices up to two edges away, its own not among them, along the mean normal there. A few of them that are
 /// off do not turn it, and how far the others are from it is what is usual there. A vertex that is off by four times as
-/// much moves onto it, unless that is four times as far as impulses usually are: then it is shape.
+/// much moves onto it, unless that is four times as far as impulses in the quietest third of the surface usually are,
+/// or half as far again as the farthest of those: then it is shape.
 ///
 /// A mesh has impulses if more than 1.5 % of the vertices in the quietest third of the surface are off by more than
 /// eight times what is usual around them, about as many to either side. Of shapes without noise and with Gaussian noise
