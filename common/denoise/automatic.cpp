@@ -3,6 +3,7 @@
 #include "denoise/choice.h"
 #include "denoise/found_noise.h"
 #include "denoise/lattice.h"
+#include "denoise/left_error.h"
 #include "denoise/outliers.h"
 #include "denoise/sample.h"
 #include "denoise/smooth_regions.h"
@@ -257,9 +258,10 @@ Positions denoise_automatically(const Faces& faces, const Positions& given, cons
                                 relaxed, after);
     }
     const bool around = within.noisy || within.likely;
-    stats.rms_before = std::sqrt(choice.before + (around ? within.before * within.before : 0) + along_axis.before);
-    stats.rms_after =
-        std::sqrt(height * height * choice.after + side * side * error_within(within, shares) + along_axis.after);
+    double heights = height * height * choice.after;
+    const double sideways = around || found.noise.axis ? side * side * error_within(within, shares)
+                                                       : moved_within(faces, found.start, after);
+    const double variance = stats.deviation * stats.deviation;
     if (found.rounded) keep_within_cells(found.even, positions, found.voxels ? stats.step : stats.step / 2, after);
     if (!found.voxels) {
         const Positions& start = found.rounded ? positions : found.start;
@@ -268,11 +270,17 @@ Positions denoise_automatically(const Faces& faces, const Positions& given, cons
         const std::vector<std::uint8_t> asked = machined_faces(faces, choice, found.even);
         const double share = std::min(options.strength, 1.0);
         const SmoothRegions regions = smooth_regions(faces, at, asked, start, errors, after);
+        const Positions before = after;
         move_into(regions, at, found.even, start, errors, share, after);
+        heights = error_after_patches(heights, variance, faces, regions, before, after);
         if (found.rounded)
             smooth_within_cells(faces, at, maker.graph(), asked, found.even, positions, *step, share, after);
         stats.patches = static_cast<Index>(regions.patch.size());
     }
+    const double held = mean_held(found.even) * variance;
+    stats.rms_before =
+        std::sqrt(choice.before + (around ? within.before * within.before : 0) + along_axis.before + held);
+    stats.rms_after = std::sqrt(heights + sideways + along_axis.after + held);
     stats.edge = mean_edge_length(faces, after);
     return after;
 }

@@ -14,7 +14,8 @@ struct Patch {
     Vec3 center, x, y, z;          ///< the axes are orthonormal
     std::array<double, 3> bend{};  ///< z = bend . (x^2, x y, y^2)
 
-    double height(const Vec3& p) const;  ///< over the patch along z
+    int terms() const { return bend == std::array<double, 3>{} ? 3 : 6; }  ///< that were fitted
+    double height(const Vec3& p) const;                                    ///< over the patch along z
     Vec3 gradient(const Vec3& p) const;  ///< of the height: normal of the patch, not of unit length
 };
 
