@@ -1,6 +1,8 @@
 #include "denoise/lattice.h"
 
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "measure/vertex_normals.h"
 
 #include <algorithm>
 #include <array>
@@ -15,6 +17,8 @@ constexpr double off = 0.05;                  ///< how far a coordinate may be f
 /// How far a plane along the axes goes around its inner vertices at least, in mean edges and in steps: terraces are
 /// narrower.
 constexpr double edges_around = 2, steps_around = 3;
+constexpr double terrace = 3;         ///< times as wide as what is beside it, one step away: it may be one
+constexpr double upright = 1e-6;      ///< cosine to the axis: risers of stairs
 constexpr double least_share = 0.05;  ///< of the vertices within such planes: what is less are terraces, too
 
 /// The different values of a coordinate, ascending.
@@ -52,14 +56,16 @@ std::vector<std::uint8_t> axes_in_common(const Faces& faces, const Positions& po
     return axes;
 }
 
-/// #V: along edges, how far it is to faces that have nothing in common, at most `enough`.
+/// #V: along edges, how far it is to faces that have none of some axes in common, at most `enough`.
+/// @param any         the axes, a bit each
 /// @param[out] rings  passes that it took
 std::vector<double> distance_to_others(const Faces& faces, const Positions& positions, const Incidence& at,
-                                       const std::vector<std::uint8_t>& axes, double enough, int& rings) {
+                                       const std::vector<std::uint8_t>& axes, std::uint8_t any, double enough,
+                                       int& rings) {
     std::vector<double> distance(positions.size());
     for (std::size_t v = 0; v < distance.size(); ++v) {
         const auto around = at[static_cast<Index>(v)];
-        const bool inside = std::all_of(around.begin(), around.end(), [&](Index f) { return axes[f] != 0; });
+        const bool inside = std::all_of(around.begin(), around.end(), [&](Index f) { return (axes[f] & any) != 0; });
         distance[v] = inside ? enough : 0;
     }
     rings = 0;
@@ -74,6 +80,75 @@ std::vector<double> distance_to_others(const Faces& faces, const Positions& posi
             }
     }
     return distance;
+}
+
+/// Parts of the surface that are even across an axis, and what is beside them one step up and one down.
+struct Levels {
+    std::vector<Index> of;                     ///< #V: one of the vertices of the level; -1: none
+    std::vector<double> width;                 ///< of each level, mesh units
+    std::array<std::vector<Index>, 2> beside;  ///< of each level, the widest; -1: none
+
+    /// Whether so many levels to one side are even over a good part of the width.
+    bool go_on(Index level, int side, int count) const {
+        Index next = level;
+        for (int k = 0; k < count; ++k) {
+            next = beside[side][next];
+            if (next < 0 || terrace * width[next] < width[level]) return false;
+        }
+        return true;
+    }
+};
+
+/// @param width  #V: see distance_to_others()
+Levels levels_across(const Faces& faces, const Positions& p, int axis, double step,
+                     const std::vector<std::uint8_t>& axes, const std::vector<double>& width) {
+    const std::size_t count = p.size();
+    DisjointSets sets(static_cast<Index>(count));
+    Levels levels{std::vector<Index>(count, -1), std::vector<double>(count), {}};
+    for (std::size_t f = 0; f < faces.size(); ++f)
+        if (axes[f] >> axis & 1U)
+            for (const Index v : faces[f]) sets.join(faces[f][0], v), levels.of[v] = v;
+    for (Index& level : levels.of) {
+        if (level < 0) continue;
+        const Index v = level;
+        level = sets.find(v).root;
+        levels.width[level] = std::max(levels.width[level], width[v]);
+    }
+    levels.beside.fill(std::vector<Index>(count, -1));
+    const auto put_beside = [&](Index from, Index to, bool up) {
+        Index& next = levels.beside[up ? 0 : 1][from];
+        if (next < 0 || levels.width[to] > levels.width[next]) next = to;
+    };
+    for (const Face& f : faces) {
+        const Vec3 area = area_vector(f, p);
+        if (!(std::abs(area[axis]) > upright * area.norm())) continue;
+        for (int k = 0; k < 3; ++k) {
+            const Index v = f[k], w = f[(k + 1) % 3];
+            const double rise = p[w][axis] - p[v][axis];
+            if (levels.of[v] < 0 || levels.of[w] < 0 || std::abs(std::abs(rise) - step) > off * step) continue;
+            put_beside(levels.of[v], levels.of[w], rise > 0);
+            put_beside(levels.of[w], levels.of[v], rise < 0);
+        }
+    }
+    return levels;
+}
+
+/// Takes the axis from faces of terraces: one step up and one down, or two to one side, the surface is as even over a
+/// good part of the width. Where a plane ends it is not, ledges have two levels, and stairs are upright between them.
+/// @param enough  width that is not told from more
+void leave_terraces(const Faces& faces, const Positions& p, const Incidence& at, int axis, double step, double enough,
+                    std::vector<std::uint8_t>& axes) {
+    const auto bit = static_cast<std::uint8_t>(1U << axis);
+    int rings = 0;
+    const std::vector<double> width = distance_to_others(faces, p, at, axes, bit, enough, rings);
+    const Levels levels = levels_across(faces, p, axis, step, axes, width);
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+        if (!(axes[f] & bit)) continue;
+        const Index level = levels.of[faces[f][0]];
+        const bool between = levels.go_on(level, 0, 1) && levels.go_on(level, 1, 1);
+        const bool goes_on = between || levels.go_on(level, 0, 2) || levels.go_on(level, 1, 2);
+        if (levels.width[level] > 0 && goes_on) axes[f] &= static_cast<std::uint8_t>(~bit);
+    }
 }
 
 }  // namespace
@@ -119,10 +194,11 @@ bool between_voxels(const Positions& positions, double step) {
 }
 
 EvenPlaces even_places(const Faces& faces, const Positions& positions, const Incidence& at, double step, double edge) {
-    const std::vector<std::uint8_t> axes = axes_in_common(faces, positions, step);
+    std::vector<std::uint8_t> axes = axes_in_common(faces, positions, step);
     const double enough = std::max(edges_around * edge, steps_around * step);
     int rings = 0;
-    const std::vector<double> distance = distance_to_others(faces, positions, at, axes, enough, rings);
+    for (int axis = 0; axis < 3; ++axis) leave_terraces(faces, positions, at, axis, step, terrace * enough, axes);
+    const std::vector<double> distance = distance_to_others(faces, positions, at, axes, 7, enough, rings);
     EvenPlaces even{std::vector<std::uint8_t>(positions.size()), std::vector<std::uint8_t>(positions.size())};
     for (std::size_t v = 0; v < distance.size(); ++v) even.silent[v] = distance[v] >= enough;
     if (std::count(even.silent.begin(), even.silent.end(), 1) < least_share * static_cast<double>(positions.size()))

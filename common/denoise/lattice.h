@@ -22,9 +22,10 @@ struct EvenPlaces {
     std::vector<std::uint8_t> axes;    ///< #V: a bit for each coordinate that is that of such a plane
 };
 
-/// Terraces of surfaces that run slowly across the lattice are narrow and few, and not taken for planes.
+/// Terraces of surfaces that run slowly across the lattice are not taken for planes: they are narrow and few, or others
+/// as wide follow one step up or down.
 /// @param edge  mean edge length
-/// Cost: linear in the faces, times the edges that 3 steps are long
+/// Cost: linear in the faces, times the edges that 9 steps are long
 EvenPlaces even_places(const Faces& faces, const Positions& positions, const Incidence& at, double step, double edge);
 
 /// Leaves out of moves of vertices what takes them out of the planes.

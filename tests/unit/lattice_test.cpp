@@ -86,4 +86,27 @@ TEST(Lattice, TerracesAreNotTakenForPlanes) {
     }
 }
 
+// Wide terraces, which go on where they do not rise upright; a ledge does not.
+TEST(Lattice, SlopesAreNotTakenForPlanesLedgesAndStairsAre) {
+    const Mesh flat = shapes::plane(50, {0, 0, 1});
+    const Incidence at = vertex_faces(flat.faces, static_cast<Index>(flat.positions.size()));
+    const double edge = (flat.positions[1] - flat.positions[0]).norm();
+    const auto held = [&](double step, const auto& place) {
+        Positions p = flat.positions;
+        for (Vec3& v : p) v = place(v);
+        p = rounded(p, step, Vec3(0, 0, 0));
+        const EvenPlaces even = even_places(flat.faces, p, at, step, mean_edge_length(flat.faces, p));
+        return static_cast<double>(std::count(even.axes.begin(), even.axes.end(), 4)) / static_cast<double>(p.size());
+    };
+    for (const double degrees : {3, 5})
+        EXPECT_EQ(held(0.6 * edge, [&](Vec3 v) { return v.z() = v.x() * std::tan(degrees * 0.01745), v; }), 0);
+    EXPECT_GT(held(0.6 * edge, [&](Vec3 v) { return v.z() = v.x() < 25 * edge ? 0 : 0.6 * edge, v; }), 0.9);
+    EXPECT_GT(held(edge,
+                   [&](const Vec3& v) {
+                       const double column = std::round(v.x() / edge), stair = std::floor(column / 9);
+                       return Vec3((column - stair) * edge, v.y(), stair * edge);
+                   }),
+              0.7);
+}
+
 }  // namespace multires
