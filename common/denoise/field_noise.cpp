@@ -13,10 +13,10 @@ constexpr double quiet = 0.15;  ///< quantile of the lengths that counts: low, b
 NoiseByDifferences differences(const Neighbours& near, const std::vector<double>& weight,
                                const std::vector<double>& values) {
     std::vector<double> h(3 * values.size());
-    for (Index v = 0; v < near.rows(); ++v) {
+    parallel_for(near.rows(), [&](Index v) {
         h[3 * v] = values[v];
         for (int c = 1; c < 3; ++c) h[3 * v + c] = gaussian(v, 200 + c);
-    }
+    });
     const std::vector<double> first = field_details(near, weight, h);
     return {near, first, field_details(near, weight, field_details(near, weight, first))};
 }

@@ -23,7 +23,8 @@ Eigen::Matrix<double, count, 1> towards_least_deviations(const std::vector<Eigen
     Eigen::Matrix<double, count, 1> b = Eigen::Matrix<double, count, 1>::Zero();
     for (std::size_t i = 0; i < values.size(); ++i) {
         const Eigen::Matrix<double, count, 1> weighted = terms[i] / std::max(std::abs(deviation[i]), least);
-        a.noalias() += weighted * terms[i].transpose();
+        for (int c = 0; c < count; ++c)  // the half that llt() reads
+            for (int r = c; r < count; ++r) a(r, c) += weighted[r] * terms[i][c];
         b += values[i] * weighted;
     }
     a.diagonal().array() += 1e-6 * a.trace();  // all on a line, or on a conic

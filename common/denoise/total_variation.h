@@ -15,15 +15,19 @@ class TotalVariation {
 public:
     explicit TotalVariation(const Neighbours& near);
 
-    /// @param values     #V by width, width at most 4
+    /// @param values     #V by fields by width: one or two fields, each denoised by itself; width at most 4
     /// @param deviation  #V, >= 0; where it is 0 values stay
     /// @param strength   >= 0; 1 takes most of the noise of a plain region
-    /// @returns          #V by width
-    /// Cost: 40 passes over the edges
+    /// @returns          #V by fields by width
+    /// Cost: 40 passes over the edges; two fields at once take much less than one after the other
     std::vector<double> denoised(const std::vector<double>& values, int width, const std::vector<double>& deviation,
                                  double strength) const;
 
 private:
+    template <int fields, int width>
+    std::vector<double> denoised(const std::vector<double>& values, const std::vector<double>& deviation,
+                                 double strength) const;
+
     const Neighbours& near_;
     std::vector<std::array<Index, 2>> edge_;  ///< #E by 2, the smaller vertex first
     std::vector<Index> edge_of_;              ///< #entries

@@ -20,6 +20,10 @@ namespace {
 constexpr double most_correction = 1.2;   ///< of the variance of the noise
 constexpr std::size_t most_rows = 30000;  ///< vertices whose risk is summed up
 
+bool same_everywhere(const std::vector<double>& values, int width) {
+    return values.empty() || std::equal(values.begin() + width, values.end(), values.begin());
+}
+
 /// The largest noise that the distribution of the values allows, if that is clearly less than what was found: white
 /// noise of deviation s makes their density f so smooth that (log f)'' >= -1 / s^2 (what is left of Tweedie's formula,
 /// the variance of the truth given a value, is not negative). So labels and checkers as fine as the triangles, which
@@ -263,11 +267,14 @@ void apply(const ValueSurface& surface, const ValueCandidateMaker& maker, const 
     if (std::count(wanted.begin(), wanted.end(), 1) == 0) return;
     ValueMoves all{std::vector<double>(s.noisy.values.size(), 0), std::vector<double>(s.noisy.values.size(), 0)};
     maker.make(s.noisy, wanted, [&](std::size_t k, const ValueMoves& moves) {
-        for (std::size_t i = 0; i < all.move.size(); ++i) {
-            const double weight = blend.weights[i % s.noisy.width][static_cast<Eigen::Index>(k)];
-            all.move[i] += weight * moves.move[i];
-            all.response[i] += weight * moves.response[i];
-        }
+        parallel_for(static_cast<Index>(impulse.size()), [&](Index v) {
+            for (int a = 0; a < s.noisy.width; ++a) {
+                const double weight = blend.weights[a][static_cast<Eigen::Index>(k)];
+                const std::size_t i = static_cast<std::size_t>(v) * s.noisy.width + a;
+                all.move[i] += weight * moves.move[i];
+                all.response[i] += weight * moves.response[i];
+            }
+        });
     });
     for (std::size_t i = 0; i < core.size(); ++i) core[i] = !impulse[i];
     const auto detail = [&](const std::vector<double>& h) { return field_details(surface.near, surface.weight, h); };
@@ -345,7 +352,7 @@ DenoisedValues denoise_values(const ValueSurface& surface, const std::vector<dou
     DenoisedValues out;
     out.values = values;
     out.noise.assign(width, 0);
-    if (!(strength > 0) || values.empty()) return out;
+    if (!(strength > 0) || same_everywhere(values, width)) return out;
     const ValueImpulses repaired = without_impulses(surface, values, width);
     out.impulses = repaired.count;
     out.values = repaired.values;

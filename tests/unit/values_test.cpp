@@ -82,6 +82,27 @@ TEST(TotalVariation, TurnsWithVectorsOfValues) {
     }
 }
 
+TEST(TotalVariation, DenoisesTwoFieldsSideBySideAsEachByItself) {
+    const Mesh mesh = shapes::irregular_sphere(500);
+    const Neighbours near = neighbours_of(mesh);
+    const TotalVariation variation(near);
+    const std::size_t count = mesh.positions.size();
+    const std::vector<double> same(count, 1);
+    for (const std::size_t width : {1, 2, 3, 4}) {
+        std::vector<double> both(2 * width * count);
+        for (std::size_t i = 0; i < both.size(); ++i) both[i] = gaussian(static_cast<Index>(i), 3);
+        const auto field = [&](const std::vector<double>& all, std::size_t which) {
+            std::vector<double> out;
+            for (std::size_t i = 0; i < all.size(); ++i)
+                if (i / width % 2 == which) out.push_back(all[i]);
+            return out;
+        };
+        const std::vector<double> after = variation.denoised(both, static_cast<int>(width), same, 0.5);
+        for (const std::size_t which : {0, 1})
+            EXPECT_EQ(field(after, which), variation.denoised(field(both, which), static_cast<int>(width), same, 0.5));
+    }
+}
+
 TEST(ValueSlopes, AreThoseOfThePlaneWhateverAFewValuesAre) {
     const Mesh mesh = shapes::irregular_sphere(4000);
     const ValueSurface surface(mesh);
