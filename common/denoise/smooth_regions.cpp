@@ -27,6 +27,7 @@ constexpr double excess = 0.06, surely = 2;
 constexpr double least_share = 0.1;  ///< of the faces in regions: fewer resemble patches by chance
 constexpr double certain = 0.5;  ///< terms of higher degree may turn a patch by such a share of what it turns normals
 constexpr int rounds = 16;       ///< of projections
+constexpr std::size_t most_at_once = 8;  ///< seeds that grow at the same time
 
 struct Region {
     Patch patch;
@@ -43,77 +44,94 @@ Vec3 unit_normal(const Face& f, const Positions& p) {
     return n.norm() > 0 ? Vec3(n.normalized()) : Vec3(Vec3::Zero());
 }
 
-class Grower {
-public:
-    Grower(const Faces& faces, const Incidence& at, const std::vector<std::uint8_t>& asked, const Positions& given,
-           const PlaceErrors& errors, const Positions& positions)
-        : faces_(faces), at_(at), q_(given), errors_(errors), normal_(faces.size()), of_face_(faces.size(), -1),
-          face_mark_(faces.size(), -1), vertex_mark_(given.size(), -1), asked_mark_(given.size(), -1),
-          met_(given.size()) {
-        parallel_for(static_cast<Index>(faces.size()), [&](Index f) {
-            normal_[f] = asked[f] != 0 ? unit_normal(faces[f], positions) : Vec3(Vec3::Zero());
+/// What regions are grown on.
+struct Ground {
+    const Faces& faces;
+    const Incidence& at;
+    const Positions& places;  ///< as given
+    const PlaceErrors& errors;
+    Array<Vec3> normal;             ///< #F, of the denoised surface; 0 where nothing is asked
+    Array<Vec3> middle;             ///< #F, of the places
+    std::vector<Index> first_next;  ///< #F+1
+    std::vector<Index> next;        ///< faces with a common edge, in compressed rows
+    std::vector<Index> region;      ///< #F: that it is in already; -1: none
+
+    Ground(const Faces& faces_, const Incidence& at_, const std::vector<std::uint8_t>& asked, const Positions& given,
+           const PlaceErrors& errors_, const Positions& denoised)
+        : faces(faces_), at(at_), places(given), errors(errors_), normal(faces.size()), middle(faces.size()),
+          first_next(faces.size() + 1, 0), region(faces.size(), -1) {
+        const Index count = static_cast<Index>(faces.size());
+        parallel_for(count, [&](Index f) {
+            const Face& v = faces[f];
+            normal[f] = asked[f] != 0 ? unit_normal(v, denoised) : Vec3(Vec3::Zero());
+            middle[f] = (places[v[0]] + places[v[1]] + places[v[2]]) / 3;
+            for_faces_beside(f, [&](Index) { ++first_next[f + 1]; });
+        });
+        std::partial_sum(first_next.begin(), first_next.end(), first_next.begin());
+        next.resize(first_next.back());
+        parallel_for(count, [&](Index f) {
+            Index k = first_next[f];
+            for_faces_beside(f, [&](Index g) { next[k++] = g; });
         });
     }
 
-    SmoothRegions all() {
-        SmoothRegions out = none(faces_.size());
-        std::vector<std::uint8_t> tried(faces_.size());
-        double square = 0, freedom = 0, left = most_vain * static_cast<double>(q_.size());
-        for (const Index f : flattest_first()) {
-            if (of_face_[f] >= 0 || tried[f] || normal_[f].isZero()) continue;
-            if (!(left > 0)) break;
-            const double before = flooded_;
-            const std::optional<Region> region = grown(f);
-            if (!region) {
-                left -= flooded_ - before;
-                for_faces_near(f, [&](Index g) { for_faces_near(g, [&](Index h) { tried[h] = 1; }); });
-                continue;
-            }
-            square += region->square;
-            freedom += region->freedom;
-            if (square > (1 + excess) * freedom + surely * errors_.spread() * std::sqrt(freedom))
-                return none(faces_.size());
-            for (const Index g : region->faces) of_face_[g] = static_cast<Index>(out.patch.size());
-            out.patch.push_back(region->patch);
-        }
-        const auto regions = std::count_if(of_face_.begin(), of_face_.end(), [](Index r) { return r >= 0; });
-        const auto asked = std::count_if(normal_.begin(), normal_.end(), [](const Vec3& n) { return !n.isZero(); });
-        if (static_cast<double>(regions) < least_share * static_cast<double>(asked)) return none(faces_.size());
-        out.of_face = of_face_;
-        return out;
-    }
-
-private:
     template <class With>
     void for_faces_near(Index f, const With& with) const {
-        for (const Index v : faces_[f])
-            for (const Index g : at_[v]) with(g);
+        for (const Index v : faces[f])
+            for (const Index g : at[v]) with(g);
     }
     Vec3 normal_around(Index f) const {
         Vec3 sum = Vec3::Zero();
-        for_faces_near(f, [&](Index g) { sum += normal_[g]; });
+        for_faces_near(f, [&](Index g) { sum += normal[g]; });
         return sum;
     }
     std::vector<Index> flattest_first() const {
-        std::vector<double> bend(faces_.size());
-        parallel_for(static_cast<Index>(faces_.size()), [&](Index f) {
+        std::vector<double> bend(faces.size());
+        parallel_for(static_cast<Index>(faces.size()), [&](Index f) {
             double count = 0;
             for_faces_near(f, [&](Index) { count += 1; });
             bend[f] = 1 - normal_around(f).norm() / count;
         });
-        std::vector<Index> order(faces_.size());
+        std::vector<Index> order(faces.size());
         std::iota(order.begin(), order.end(), 0);
         std::stable_sort(order.begin(), order.end(), [&](Index f, Index g) { return bend[f] < bend[g]; });
         return order;
     }
 
+private:
+    template <class With>
+    void for_faces_beside(Index f, const With& with) const {
+        for (int k = 0; k < 3; ++k)
+            for (const Index g : at[faces[f][k]])
+                if (g != f && std::count(faces[g].begin(), faces[g].end(), faces[f][(k + 1) % 3]) > 0) with(g);
+    }
+};
+
+/// Grows one region after the other.
+class Grower {
+public:
+    explicit Grower(const Ground& ground)
+        : ground_(ground), faces_(ground.faces), q_(ground.places), errors_(ground.errors), normal_(ground.normal),
+          middle_(ground.middle), face_mark_(faces_.size(), -1), vertex_mark_(q_.size(), -1),
+          asked_mark_(q_.size(), -1), met_(q_.size()) {}
+
+    std::optional<Region> grown(Index seed) {
+        const Vec3 normal = ground_.normal_around(seed).normalized(), x = normal.unitOrthogonal();
+        const Patch start{middle_[seed], x, normal.cross(x), normal};
+        double turns = 0, bent_turns = 0;
+        std::optional<Region> flat = grown(seed, start, 1, turns), bent = grown(seed, start, 2, bent_turns);
+        return bent && (!flat || bent_turns < turns) ? bent : flat;
+    }
+    /// Vertices that floods have come to so far.
+    double flooded() const { return flooded_; }
+
+private:
     bool meets(const Patch& patch, Index v) const {
         return errors_.allows(patch.height(q_[v]), patch.gradient(q_[v]), v);
     }
-    Vec3 middle(Index f) const { return (q_[faces_[f][0]] + q_[faces_[f][1]] + q_[faces_[f][2]]) / 3; }
     bool fits(const Patch& patch, Index f) {
-        if (of_face_[f] >= 0) return false;
-        const Vec3 gradient = patch.gradient(middle(f));
+        if (ground_.region[f] >= 0) return false;
+        const Vec3 gradient = patch.gradient(middle_[f]);
         if (!(normal_[f].dot(gradient) > least_cosine * gradient.norm())) return false;
         return std::all_of(faces_[f].begin(), faces_[f].end(), [&](Index v) {
             if (asked_mark_[v] != mark_) asked_mark_[v] = mark_, met_[v] = meets(patch, v);
@@ -135,12 +153,9 @@ private:
         };
         add(seed);
         for (std::size_t i = 0; i < r.faces.size() && static_cast<Index>(r.vertices.size()) < most; ++i) {
-            const Face& f = faces_[r.faces[i]];
-            for (int k = 0; k < 3; ++k)
-                for (const Index g : at_[f[k]]) {
-                    const Face& h = faces_[g];
-                    if (face_mark_[g] != mark_ && std::find(h.begin(), h.end(), f[(k + 1) % 3]) != h.end()) add(g);
-                }
+            const Index f = r.faces[i];
+            for (Index k = ground_.first_next[f]; k < ground_.first_next[f + 1]; ++k)
+                if (face_mark_[ground_.next[k]] != mark_) add(ground_.next[k]);
         }
         flooded_ += static_cast<double>(r.vertices.size());
         return r;
@@ -160,10 +175,8 @@ private:
     }
     /// The best polynomial over a plane, and a plane that has its tangent in the middle.
     Patch curved(const Region& r) const {
-        Region flat = r;
-        flat.patch = plane(r);
-        const PatchFit fit = fit_over(flat.patch, flat.vertices, q_, errors_, 2);
-        const Patch& p = flat.patch;
+        const Patch p = plane(r);
+        const PatchFit fit = fit_over(p, r.vertices, q_, errors_, 2);
         const auto& c = fit.coefficient;
         Patch out;
         out.center = p.center + c[0] * p.z;
@@ -190,7 +203,7 @@ private:
         if (errors_.rounded() && more_than_noise < -off) return Verdict::open;  // a terrace
         const PatchFit more = fit_over(r.patch, r.vertices, q_, errors_, 2 * degree);
         std::vector<double> angle;
-        for (const Index f : r.faces) angle.push_back((normal_[f] - r.patch.gradient(middle(f)).normalized()).norm());
+        for (const Index f : r.faces) angle.push_back((normal_[f] - r.patch.gradient(middle_[f]).normalized()).norm());
         const double most = certain * lower_quantile(angle, 0.5), noise = more.tilt_by_noise;
         turns = std::hypot(more.tilt, noise);
         if (turns < most) return Verdict::right;
@@ -219,25 +232,90 @@ private:
         }
     }
 
-    std::optional<Region> grown(Index seed) {
-        const Vec3 normal = normal_around(seed).normalized(), x = normal.unitOrthogonal();
-        const Patch start{middle(seed), x, normal.cross(x), normal};
-        double turns = 0, bent_turns = 0;
-        std::optional<Region> flat = grown(seed, start, 1, turns), bent = grown(seed, start, 2, bent_turns);
-        return bent && (!flat || bent_turns < turns) ? bent : flat;
-    }
-
+    const Ground& ground_;
     const Faces& faces_;
-    const Incidence& at_;
     const Positions& q_;
     const PlaceErrors& errors_;
-    Array<Vec3> normal_;                          ///< #F, of the denoised surface; 0 where nothing is asked
-    std::vector<Index> of_face_;                  ///< #F
+    const Array<Vec3>&normal_, &middle_;
     std::vector<Index> face_mark_, vertex_mark_;  ///< the last flood that came there
     std::vector<Index> asked_mark_;               ///< and that asked whether the patch may be met,
     std::vector<std::uint8_t> met_;               ///< what it was told
-    double flooded_ = 0;                          ///< vertices, all floods together
+    double flooded_ = 0;
     Index mark_ = 0;
+};
+
+/// Regions from the flattest seeds on. Most seeds grow none, which changes nothing for the next ones: so the next few
+/// grow at the same time, and what they grew counts unless there is a new region by then.
+class Growth {
+public:
+    explicit Growth(Ground& ground) : ground_(ground), tried_(ground.faces.size(), 0) {}
+
+    SmoothRegions all() {
+        SmoothRegions out = none(ground_.faces.size());
+        double square = 0, freedom = 0, left = most_vain * static_cast<double>(ground_.places.size());
+        const std::vector<Index> order = ground_.flattest_first();
+        for (std::size_t place = 0; place < order.size(); ++place) {
+            if (!open(order[place])) continue;
+            if (!(left > 0)) break;
+            const Grown& grown = grown_at(order, place);
+            if (!grown.region) {
+                left -= grown.flooded;
+                ground_.for_faces_near(order[place],
+                                       [&](Index g) { ground_.for_faces_near(g, [&](Index h) { tried_[h] = 1; }); });
+                continue;
+            }
+            const Region& region = *grown.region;
+            square += region.square;
+            freedom += region.freedom;
+            if (square > (1 + excess) * freedom + surely * ground_.errors.spread() * std::sqrt(freedom))
+                return none(ground_.faces.size());
+            for (const Index g : region.faces) ground_.region[g] = static_cast<Index>(out.patch.size());
+            out.patch.push_back(region.patch);
+            ahead_.clear();
+            at_once_ = 1;
+        }
+        const auto in_regions =
+            std::count_if(ground_.region.begin(), ground_.region.end(), [](Index r) { return r >= 0; });
+        const auto asked =
+            std::count_if(ground_.normal.begin(), ground_.normal.end(), [](const Vec3& n) { return !n.isZero(); });
+        if (static_cast<double>(in_regions) < least_share * static_cast<double>(asked))
+            return none(ground_.faces.size());
+        out.of_face = ground_.region;
+        return out;
+    }
+
+private:
+    struct Grown {
+        Index seed;
+        std::optional<Region> region;
+        double flooded = 0;  ///< vertices that floods came to
+    };
+
+    bool open(Index f) const { return ground_.region[f] < 0 && !tried_[f] && !ground_.normal[f].isZero(); }
+    const Grown& grown_at(const std::vector<Index>& order, std::size_t place) {
+        for (const Grown& grown : ahead_)
+            if (grown.seed == order[place]) return grown;
+        ahead_.clear();
+        for (; place < order.size() && ahead_.size() < at_once_; ++place)
+            if (open(order[place])) ahead_.push_back({order[place], {}, 0});
+        while (growers_.size() < ahead_.size()) growers_.emplace_back(ground_);
+        parallel_for(
+            static_cast<Index>(ahead_.size()),
+            [&](Index i) {
+                const double before = growers_[i].flooded();
+                ahead_[i].region = growers_[i].grown(ahead_[i].seed);
+                ahead_[i].flooded = growers_[i].flooded() - before;
+            },
+            1);
+        at_once_ = std::min(2 * at_once_, thread_count() > 1 ? most_at_once : std::size_t{1});
+        return ahead_.front();
+    }
+
+    Ground& ground_;
+    std::vector<std::uint8_t> tried_;  ///< #F: near to seeds that grew none
+    std::vector<Grower> growers_;
+    std::vector<Grown> ahead_;  ///< from here and the next seeds
+    std::size_t at_once_ = 1;
 };
 
 }  // namespace
@@ -245,7 +323,8 @@ private:
 SmoothRegions smooth_regions(const Faces& faces, const Incidence& at, const std::vector<std::uint8_t>& asked,
                              const Positions& given, const PlaceErrors& errors, const Positions& positions) {
     if (std::find(asked.begin(), asked.end(), 1) == asked.end()) return none(faces.size());
-    return Grower(faces, at, asked, given, errors, positions).all();
+    Ground ground(faces, at, asked, given, errors, positions);
+    return Growth(ground).all();
 }
 
 void move_into(const SmoothRegions& regions, const Incidence& at, const EvenPlaces& even, const Positions& given,

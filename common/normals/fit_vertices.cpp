@@ -24,6 +24,14 @@ Vec3 within_surface(const Vec3& to_middle, const Vec3& normal_sum) {
     return 0.5 * (to_middle - n * n.dot(to_middle));
 }
 
+/// Inside, every neighbour is met twice and cancels out.
+bool on_boundary(const Faces& faces, const Incidence& at, const Array<Vec3>& normals, Index v) {
+    Index unpaired = 0;
+    for (const Index f : at[v])
+        for (const Index w : faces[f]) unpaired ^= w == v || normals[f].isZero() ? 0 : w;
+    return unpaired != 0;
+}
+
 }  // namespace
 
 Positions fit_vertices(const Faces& faces, const Positions& positions, const Incidence& at, const Array<Vec3>& normals,
@@ -40,11 +48,10 @@ Positions fit_vertices(const Faces& faces, const Positions& positions, const Inc
             next[v] = p[v];
             if (!moves.empty() && !moves[v]) return;
             Vec3 along(0, 0, 0), middle(0, 0, 0), normal_sum(0, 0, 0);
-            Index members = 0, unpaired = 0;
+            Index members = 0;
             bool make_room = false;
             for (const Index f : at[v]) {
                 if (normals[f].isZero()) continue;
-                for (const Index w : faces[f]) unpaired ^= w == v ? 0 : w;
                 const Vec3 to = centroid[f] - p[v];
                 along += normals[f] * normals[f].dot(to);
                 middle += to;
@@ -54,8 +61,9 @@ Positions fit_vertices(const Faces& faces, const Positions& positions, const Inc
             }
             if (members == 0) return;
             next[v] += along / members;
-            // Inside, every neighbour is met twice and cancels out; on the boundary, sliding would eat into the mesh.
-            if (make_room && unpaired == 0) next[v] += within_surface(middle / members - along / members, normal_sum);
+            // On the boundary, sliding would eat into the mesh.
+            if (make_room && !on_boundary(faces, at, normals, v))
+                next[v] += within_surface(middle / members - along / members, normal_sum);
         });
         p.swap(next);
     }
