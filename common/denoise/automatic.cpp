@@ -1,5 +1,6 @@
 #include "denoise/automatic.h"
 
+#include "base/parallel.h"
 #include "denoise/choice.h"
 #include "denoise/found_noise.h"
 #include "denoise/lattice.h"
@@ -186,18 +187,21 @@ Plan sampled_plan(const Faces& faces, const Positions& positions, const Incidenc
 
 /// #F: 1 where the blend says that the surface may consist of patches, outside of planes along the axes.
 std::vector<std::uint8_t> machined_faces(const Faces& faces, const Choice& choice, const EvenPlaces& even) {
+    const double everywhere = choice.kinds.empty() ? sharp_share(choice.weights) : 0;
+    std::vector<double> of_class;
+    for (std::size_t c = 0; !choice.kinds.empty() && c < choice.of_class.size(); ++c)
+        of_class.push_back(sharp_share(choice.of_class[c]));
     const auto may_be = [&](Index v) {
-        double share = choice.kinds.empty() ? sharp_share(choice.weights) : 0;
-        for (std::size_t c = 0; !choice.kinds.empty() && c < choice.of_class.size(); ++c)
-            share += choice.kinds[v][c] * sharp_share(choice.of_class[c]);
+        double share = everywhere;
+        for (std::size_t c = 0; c < of_class.size(); ++c) share += choice.kinds[v][c] * of_class[c];
         return share > machined;
     };
     std::vector<std::uint8_t> asked(faces.size());
-    for (std::size_t f = 0; f < faces.size(); ++f) {
+    parallel_for(static_cast<Index>(faces.size()), [&](Index f) {
         const auto& [a, b, c] = faces[f];
         const bool is_even = !even.axes.empty() && (even.axes[a] & even.axes[b] & even.axes[c]) != 0;
         asked[f] = !is_even && std::all_of(faces[f].begin(), faces[f].end(), may_be);
-    }
+    });
     return asked;
 }
 

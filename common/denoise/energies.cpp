@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -63,8 +64,11 @@ Moments moments(const std::vector<double>& x, const std::vector<double>& y, bool
 }  // namespace
 
 double Energies::quantile(double share) const {
-    const double expected = quantile_of(noise[0], share) + quantile_of(noise[1], share);
-    return expected > 0 ? 2 * quantile_of(field, share) / expected : 0;
+    std::array<double, 3> of{};
+    parallel_for(
+        3, [&](Index k) { of[k] = quantile_of(k < 2 ? noise[k] : field, share); }, 1);
+    const double expected = of[0] + of[1];
+    return expected > 0 ? 2 * of[2] / expected : 0;
 }
 
 double Energies::mean() const {
@@ -124,9 +128,17 @@ double peakedness(const std::vector<double>& detail, const std::vector<double>& 
 }
 
 double without_bends(const Energies& energy, const Energies& bends) {
-    const Moments field = moments(bends.field, energy.field, true);
-    const Moments noise[2] = {moments(bends.noise[0], energy.noise[0], false),
-                              moments(bends.noise[1], energy.noise[1], false)};
+    Moments field;
+    std::array<Moments, 2> noise;
+    parallel_for(
+        3,
+        [&](Index k) {
+            if (k == 2)
+                field = moments(bends.field, energy.field, true);
+            else
+                noise[k] = moments(bends.noise[k], energy.noise[k], false);
+        },
+        1);
     const double mean_x = (noise[0].x + noise[1].x) / 2, mean_y = (noise[0].y + noise[1].y) / 2;
     const double chance_xx = (noise[0].xx + noise[1].xx) / 2, chance_xy = (noise[0].xy + noise[1].xy) / 2;
     if (!(mean_y > 0)) return 0;
