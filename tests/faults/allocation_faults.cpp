@@ -12,7 +12,7 @@ namespace multires::faults {
 namespace {
 
 constexpr long never = std::numeric_limits<long>::max();
-constexpr std::size_t large = std::size_t{1} << 20;
+constexpr std::size_t large = std::size_t{1} << 19;
 
 std::atomic<bool> armed{false}, large_only{false};
 std::atomic<long> allocations{0};

@@ -11,7 +11,7 @@ enum class Shortage {
 
 enum class Memory {
     all,
-    large  ///< a megabyte and more; other allocations are not counted and do not fail
+    large  ///< half a megabyte and more; other allocations are not counted and do not fail
 };
 
 /// From now on, in any thread, allocation number `index` (from 0) fails.

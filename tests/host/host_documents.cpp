@@ -113,8 +113,8 @@ void enrich(MeshModel& model) {
 
 void fill(MeshDocument& document, const Action& action, Content content) {
     const bool grid = action.name.find("multires_grid") != std::string::npos, large = content == Content::large;
-    Mesh mesh = grid    ? shapes::grid_terrain(large ? shapes::GridShape{225, 225} : shapes::GridShape{6, 7})
-                : large ? shapes::scan(50000)
+    Mesh mesh = grid    ? shapes::grid_terrain(large ? shapes::GridShape{163, 163} : shapes::GridShape{6, 7})
+                : large ? shapes::scan(26000)
                         : shapes::irregular_sphere(42, {0.3, 0.3, 5});
     mesh.faces.resize(mesh.faces.size() - 3);
     mesh.positions.push_back({0, 3, 0});

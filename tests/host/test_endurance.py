@@ -106,7 +106,7 @@ def test_peak_memory_of_a_pyramid(tmp_path):
 
 
 def test_too_little_address_space_is_an_error_that_changes_nothing():
-    command = [sys.executable, ROOT / "tests/bench/load.py", "--vertices", "200000", "--build", BUILD]
+    command = [sys.executable, ROOT / "tests/bench/load.py", "--vertices", "100000", "--build", BUILD]
     run = subprocess.run(command, capture_output=True, text=True)
     assert run.returncode == 0, run.stdout + run.stderr
 

@@ -203,7 +203,7 @@ void orient(Form& form, const Mesh& mesh, const Array<Vec3>& areas) {
 
 }  // namespace
 
-Foot foot(const Form& form, const Vec3& p) {
+FormFoot foot(const Form& form, const Vec3& p) {
     if (form.kind == FormKind::none || form.kind == FormKind::plane) {
         const double h = (p - form.point).dot(form.axis);
         return {p - h * form.axis, form.outwards * form.axis, form.outwards * h};

@@ -19,12 +19,12 @@ struct Form {
 };
 
 /// The nearest point of a form.
-struct Foot {
+struct FormFoot {
     Vec3 at;
     Vec3 normal;    ///< unit, on the side the faces look to
     double height;  ///< mesh units along the normal
 };
-Foot foot(const Form& form, const Vec3& p);
+FormFoot foot(const Form& form, const Vec3& p);
 
 /// Orthogonal least squares: planes by eigenvectors, the others by Levenberg and Marquardt's steps from algebraic fits,
 /// cylinders from six directions of the axis (those of the positions' and of the normals' spread).

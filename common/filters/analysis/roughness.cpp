@@ -86,7 +86,7 @@ Heights over_form(const Mesh& all, const RoughnessOptions& o, Faces faces, Sessi
     out.reference = mesh;
     Array<double> h(n), low(n);
     parallel_for(n, [&](Index i) {
-        const Foot f = foot(form, mesh.positions[i]);
+        const FormFoot f = foot(form, mesh.positions[i]);
         out.reference.positions[i] = f.at;
         h[i] = f.height;
     });
