@@ -87,9 +87,11 @@ Positions with_creases(const Faces& faces, const Positions& positions, const Inc
 
 Positions without_impulses(const Faces& faces, const Positions& positions, const Incidence& at, const Neighbours& near,
                            Index& spikes) {
-    const Positions bent = without_weak_impulses(faces, positions, at, near);
+    double highest = 0;
+    const Positions bent = without_weak_impulses(faces, positions, at, near, highest);
     Positions start = without_spikes(faces, bent, at, spikes);
     if (spikes > 0 && !stand_out(faces, bent, start, near)) start = bent;
+    if (highest > 0) start = without_impulses_beside_creases(faces, start, at, near, highest);
     if (start == positions) {
         spikes = 0;
         return start;

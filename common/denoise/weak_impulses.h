@@ -20,7 +20,15 @@ namespace multires {
 ///
 /// @returns  #V positions
 /// Cost: linear; some 3,000 vertices are looked at, and only where there are impulses all of them, twice; parallel
+/// @param[out] highest  that impulses are at most, mesh units; 0: there are none
 Positions without_weak_impulses(const Faces& faces, const Positions& positions, const Incidence& at,
-                                const Neighbours& near);
+                                const Neighbours& near, double& highest);
+
+/// Sets impulses beside creases back, which no quadric follows: off the plane of least absolute deviations by more than
+/// eight times the median of what those around are.
+/// @param highest  see without_weak_impulses(), > 0
+/// Cost: linear; parallel
+Positions without_impulses_beside_creases(const Faces& faces, const Positions& positions, const Incidence& at,
+                                          const Neighbours& near, double highest);
 
 }  // namespace multires

@@ -8,9 +8,15 @@ using namespace fixtures;
 
 namespace {
 
-Positions set_back(const Mesh& mesh) {
+/// @param[out] beside_creases  after that, unless there are none
+Positions set_back(const Mesh& mesh, Positions* beside_creases = nullptr) {
     const Incidence at = vertex_faces(mesh.faces, static_cast<Index>(mesh.positions.size()));
-    return without_weak_impulses(mesh.faces, mesh.positions, at, neighbours(mesh.faces, at));
+    const Neighbours near = neighbours(mesh.faces, at);
+    double highest = 0;
+    const Positions after = without_weak_impulses(mesh.faces, mesh.positions, at, near, highest);
+    if (beside_creases && highest > 0)
+        *beside_creases = without_impulses_beside_creases(mesh.faces, after, at, near, highest);
+    return after;
 }
 
 double rms_distance(const Positions& a, const Positions& b) { return displacement(a, b).rms; }
@@ -42,6 +48,19 @@ TEST(WeakImpulses, AreSetBackWhereTheSurfaceBends) {
                 EXPECT_LT(mean_normal_angle(truth.faces, truth.positions, denoised(mesh)),
                           0.4 * mean_normal_angle(truth.faces, truth.positions, mesh.positions));
             }
+}
+
+TEST(WeakImpulses, AreSetBackBesideCreases) {
+    const Mesh truth = shapes::block(16);
+    for (const double size : {0.05, 0.2}) {
+        SCOPED_TRACE(size);
+        const Mesh mesh = with_some_moved(truth, 0.1, [&](shapes::Random& random) { return size * gaussian(random); });
+        Positions after = mesh.positions;
+        const Positions before = set_back(mesh, &after);
+        EXPECT_LT(rms_distance(truth.positions, after), 0.95 * rms_distance(truth.positions, before));
+        for (std::size_t v = 0; v < after.size(); ++v)
+            EXPECT_TRUE(mesh.positions[v] != truth.positions[v] || (after[v] - before[v]).norm() < 1e-9);
+    }
 }
 
 TEST(WeakImpulses, ShapesAndGaussianNoiseHaveNone) {
