@@ -61,6 +61,7 @@ struct Findings {
     double lower = 0, low = 0;                ///< what three tenths, and one tenth, of them stay below
     double peakedness = 0;                    ///< of the third details
     double quiet_peakedness = 0;              ///< of those of three tenths
+    double low_fifth = 0;                     ///< what one tenth of the fifth details stay below
     double white = 1;                         ///< share of the third details: see white_share()
     std::optional<AxisNoise> axis;
     double peakedness_along_axis = 0;  ///< of the third details, beside noise along the axis
@@ -132,6 +133,7 @@ Findings findings(const Faces& faces, const Positions& p, const Incidence& at, c
         mean.peakedness += peakedness(third, squares, inner) / repeats;
         mean.quiet_peakedness += peakedness(third, squares, inner, energy, 0.3) / repeats;
     }
+    mean.low_fifth = whiteness.fifth[0] / repeats;
     mean.white = whiteness.share();
     if (mean.axis) {
         std::vector<double> h(3 * near.rows(), 0);
@@ -160,6 +162,18 @@ double agreed(double quiet, double all, Index vertices, double edge) {
     if (all > quiet) return quiet + (all - quiet) * std::clamp((quiet / all - 0.8) / 0.1, 0.0, 1.0);
     const double weak = std::clamp(2 - quiet / (0.1 * edge), 0.0, 1.0);
     return quiet + (all - quiet) * std::max(weak, std::min(1.0, vertices / 4000.0));
+}
+
+/// Fifth details have less of the shape than third ones and as much of the noise: what falls between them says how much
+/// is left. That errs for other reasons than the deviation found so far, so weak noise is the mean of both, but not
+/// less: at creases, and by chance on few vertices, more may fall.
+/// @param most  that third details say
+double with_fifth(double deviation, double most, const Findings& f, double edge) {
+    constexpr double left_by_fallen = 2.2;
+    const double fallen = std::max(0.0, f.low - f.low_fifth), square = deviation * deviation;
+    const double by_fifth = std::min(f.low_fifth - left_by_fallen * fallen, most * most);
+    const double weak = std::clamp(2 - deviation / (0.1 * edge), 0.0, 1.0);
+    return deviation > 0 ? std::sqrt(square + weak / 2 * std::max(0.0, by_fifth - square)) : 0;
 }
 
 /// Certainty that details are noise: shape has peaks.
@@ -274,8 +288,9 @@ SurfaceNoise surface_noise(const Faces& faces, const Positions& positions, const
     Findings found = findings(faces, positions, at, near, edge, 3);
     // Strong noise needs smoother normals.
     if (std::sqrt(found.mean) > 0.12 * edge) found = findings(faces, positions, at, near, edge, 8);
-    const double deviation =
-        agreed(quiet_deviation(found, near.rows(), edge), std::sqrt(found.without_bends), near.rows(), edge);
+    const double quiet = quiet_deviation(found, near.rows(), edge), all = std::sqrt(found.without_bends);
+    const double of_third = agreed(quiet, all, near.rows(), edge);
+    const double deviation = with_fifth(of_third, std::max({of_third, quiet, all}), found, edge);
     noise.along_normals = deviation;
     noise.at_least = std::sqrt(least_square(deviation * deviation, found, near.rows(), edge));
     const Array<Vec3> normal = smoothed(faces, positions, near, 3).normal;

@@ -38,7 +38,8 @@ struct SurfaceNoise {
 /// - Noise is everywhere, texture and creases are not: the lowest tenth of the energies counts, less what the spread
 ///   from there to the third tenth says of texture.
 /// - Shape has details where it bends: the part of the energies counts that does not go with the bends.
-/// If both agree it is the second, which uses all vertices, otherwise the smaller.
+/// If both agree it is the second, which uses all vertices, otherwise the smaller. Weak noise is the root mean square
+/// of that and of fifth differences less what falls from third to fifth ones, which is shape.
 ///
 /// Noise along one axis is looked for as well (axis_noise.h). Other noise that is not the same everywhere is
 /// underestimated: its quietest part counts.
