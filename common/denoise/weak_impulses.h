@@ -18,9 +18,9 @@ namespace multires {
 /// hardly any are, of impulses of 0.2 edge lengths at one vertex in seven mostly 1 to 12 %. All other meshes are given
 /// back as they are.
 ///
+/// @param[out] highest  that impulses are at most, mesh units; 0: there are none
 /// @returns  #V positions
 /// Cost: linear; some 3,000 vertices are looked at, and only where there are impulses all of them, twice; parallel
-/// @param[out] highest  that impulses are at most, mesh units; 0: there are none
 Positions without_weak_impulses(const Faces& faces, const Positions& positions, const Incidence& at,
                                 const Neighbours& near, double& highest);
 

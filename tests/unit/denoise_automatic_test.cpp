@@ -497,20 +497,6 @@ TEST(AutomaticDenoise, GivesTheSameBitsOnPatchesOfALargeMesh) {
     EXPECT_NE(angle[1], angle[0]);
 }
 
-// Seeds of patches that grow at the same time must not know of each other.
-TEST(AutomaticDenoise, GrowsTheSamePatchesWithAnyNumberOfThreads) {
-    const Mesh mesh = noisy(turned_block(), Model::along_normals, 0.1);
-    Positions first;
-    for (const int threads : {1, 2, 3}) {
-        const Threads scope(threads);
-        AutomaticStats stats;
-        const Positions after = denoised(mesh, stats);
-        EXPECT_GE(stats.patches, 5);
-        if (threads == 1) first = after;
-        EXPECT_EQ(after, first);
-    }
-}
-
 TEST(AutomaticDenoise, FastIsTheSameOnSmallMeshes) {
     const Mesh mesh = noisy(shapes::torus(40, 18), Model::along_normals, 0.2);
     DenoiseOptions options;
