@@ -90,7 +90,7 @@ void count_faces(const Mesh& mesh, InputCounts& counts) {
 }
 
 /// One side of a face, as seen from its smaller vertex.
-struct Side {
+struct FaceSide {
     Index other;  // the larger vertex
     Index face;
     bool upward;  // passed from the smaller to the larger one
@@ -104,12 +104,12 @@ void for_each_edge(const Mesh& mesh, Visit visit) {
     const auto larger = [&](Index c) { return std::max(faces[c / 3][c % 3], faces[c / 3][(c + 1) % 3]); };
     const Buckets<Index> buckets(static_cast<Index>(mesh.positions.size()), static_cast<Index>(3 * faces.size()),
                                  smaller);
-    std::vector<Side> sides;
+    std::vector<FaceSide> sides;
     for (Index v = 0; v < buckets.size(); ++v) {
         sides.clear();
         for (const Index c : buckets[v])
             if (!repeats_an_index(faces[c / 3])) sides.push_back({larger(c), c / 3, faces[c / 3][c % 3] == v});
-        std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
+        std::sort(sides.begin(), sides.end(), [](const FaceSide& a, const FaceSide& b) {
             return std::make_pair(a.other, a.face) < std::make_pair(b.other, b.face);
         });
         for (std::size_t i = 0, j = 0; i < sides.size(); i = j) {
@@ -121,7 +121,7 @@ void for_each_edge(const Mesh& mesh, Visit visit) {
 
 void count_edges(const Mesh& mesh, InputCounts& counts) {
     std::vector<std::pair<Index, Index>> boundary;
-    for_each_edge(mesh, [&](Index v, const Side* begin, const Side* end) {
+    for_each_edge(mesh, [&](Index v, const FaceSide* begin, const FaceSide* end) {
         if (end - begin == 1) boundary.emplace_back(v, begin->other);
         counts.non_manifold_edges += end - begin > 2;
         counts.inconsistent_edges += end - begin == 2 && begin[0].upward == begin[1].upward;
@@ -148,7 +148,7 @@ Index count_components(const Mesh& mesh) {
 Index count_non_orientable(const Mesh& mesh) {
     DisjointSets sets(static_cast<Index>(mesh.faces.size()));
     std::vector<Index> contradictions;
-    for_each_edge(mesh, [&](Index, const Side* begin, const Side* end) {
+    for_each_edge(mesh, [&](Index, const FaceSide* begin, const FaceSide* end) {
         if (end - begin != 2) return;
         if (!sets.join(begin[0].face, begin[1].face, begin[0].upward == begin[1].upward))
             contradictions.push_back(begin[0].face);

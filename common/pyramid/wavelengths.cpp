@@ -12,9 +12,9 @@ namespace multires {
 namespace {
 
 /// The parts that the base is in.
-class Parts {
+class BaseParts {
 public:
-    explicit Parts(const Rings& base) : base_(base), part_(parts_of(base)) {}
+    explicit BaseParts(const Rings& base) : base_(base), part_(parts_of(base)) {}
 
     /// Mean length of the edges in the parts that vertices of the last level went to.
     double mean_edge(const Hierarchy& h) {
@@ -77,7 +77,7 @@ public:
 private:
     const Hierarchy& h_;
     const Faces& faces_;
-    Parts parts_;
+    BaseParts parts_;
     bool by_taken_;
 };
 

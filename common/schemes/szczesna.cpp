@@ -29,7 +29,6 @@ namespace {
 
 using namespace relaxed_rows;
 using ring_update::Batches;
-using ring_update::Part;
 
 RelaxationOptions relaxation_of(Operator op) {
     RelaxationOptions options;
@@ -105,7 +104,7 @@ public:
     }
 
     std::size_t bytes() const override {
-        std::size_t sum = part_.capacity() * sizeof(Part) + keeps_.capacity() +
+        std::size_t sum = part_.capacity() * sizeof(ring_update::Part) + keeps_.capacity() +
                           (weight_.capacity() + flap_weight_.capacity()) * sizeof(double) +
                           (single_.capacity() + flap_single_.capacity()) * sizeof(float) +
                           batches_.capacity() * sizeof(std::unique_ptr<Batches>);
@@ -222,7 +221,7 @@ private:
     }
 
     // A level may be one vertex: what all of them have is in one table, as it is in Hierarchy::odd.
-    Array<Part> part_;                               ///< #V; empty: no update
+    Array<ring_update::Part> part_;                  ///< #V; empty: no update
     std::vector<std::unique_ptr<Batches>> batches_;  ///< #levels; null: one row
     Array<double> weight_, flap_weight_;             ///< #entries
     Array<float> single_, flap_single_;              ///< the same with Storage::single

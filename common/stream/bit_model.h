@@ -3,6 +3,7 @@
 #include "stream/bit_coder.h"
 #include "stream/elementary.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -15,6 +16,9 @@ struct Learning {
     double haste = 0;     ///< by how much faster weights learn from their first bits
     float memory = 250;   ///< bits after which a context's probability no longer learns more slowly
 };
+
+/// A context's value, from 0 to `most`.
+inline int clamp(int x, int most) { return std::min(std::max(x, 0), most); }
 
 /// A bit predicted by several contexts at once: each keeps an adaptive probability, and a logistic mixture whose
 /// weights learn from every bit weighs them (Mahoney 2005, "Adaptive weighing of context models for lossless data

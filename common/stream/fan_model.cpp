@@ -10,8 +10,6 @@ namespace {
 
 constexpr int buckets = 24, most_valence = 11;
 
-int clamp(int x, int most) { return std::min(std::max(x, 0), most); }
-
 /// x / n: the same number without a division, which takes most of the time, if n is a power of two.
 Two over(Two x, Index n) {
     if (n == 1) return x;

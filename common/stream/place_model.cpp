@@ -1,6 +1,7 @@
 #include "stream/place_model.h"
 
 #include "base/error.h"
+#include "stream/bit_model.h"
 #include "stream/geometry.h"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 
 namespace multires::stream {
 namespace {
-
-int clamp(int x, int most) { return std::min(std::max(x, 0), most); }
 
 /// The nearest cell of a coordinate, whatever the coordinate is.
 std::int32_t nearest(double x) {

@@ -1,17 +1,14 @@
 #include "stream/progress.h"
 
 #include "base/error.h"
+#include "stream/bit_model.h"
 #include "stream/geometry.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace multires::stream {
-namespace {
-
-int clamp(int x, int most) { return std::min(std::max(x, 0), most); }
-
-}  // namespace
+namespace {}  // namespace
 
 void add_bulge(const StarMesh& mesh, const Positions& from, double share, Positions& to) {
     Star star;
