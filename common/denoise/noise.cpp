@@ -166,10 +166,13 @@ double agreed(double quiet, double all, Index vertices, double edge) {
 
 /// Fifth details have less of the shape than third ones and as much of the noise: what falls between them says how much
 /// is left. That errs for other reasons than the deviation found so far, so weak noise is the mean of both, but not
-/// less: at creases, and by chance on few vertices, more may fall.
+/// less: at creases, and by chance on few vertices, more may fall. Meshes that are hardly wider than the ten edges that
+/// fifth details are have nothing to say.
 /// @param most  that third details say
-double with_fifth(double deviation, double most, const Findings& f, double edge) {
+double with_fifth(double deviation, double most, const Findings& f, Index vertices, double edge) {
     constexpr double left_by_fallen = 2.2;
+    constexpr Index enough = 500;
+    if (vertices < enough) return deviation;
     const double fallen = std::max(0.0, f.low - f.low_fifth), square = deviation * deviation;
     const double by_fifth = std::min(f.low_fifth - left_by_fallen * fallen, most * most);
     const double weak = std::clamp(2 - deviation / (0.1 * edge), 0.0, 1.0);
@@ -290,7 +293,7 @@ SurfaceNoise surface_noise(const Faces& faces, const Positions& positions, const
     if (std::sqrt(found.mean) > 0.12 * edge) found = findings(faces, positions, at, near, edge, 8);
     const double quiet = quiet_deviation(found, near.rows(), edge), all = std::sqrt(found.without_bends);
     const double of_third = agreed(quiet, all, near.rows(), edge);
-    const double deviation = with_fifth(of_third, std::max({of_third, quiet, all}), found, edge);
+    const double deviation = with_fifth(of_third, std::max({of_third, quiet, all}), found, near.rows(), edge);
     noise.along_normals = deviation;
     noise.at_least = std::sqrt(least_square(deviation * deviation, found, near.rows(), edge));
     const Array<Vec3> normal = smoothed(faces, positions, near, 3).normal;
