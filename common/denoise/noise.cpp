@@ -156,12 +156,14 @@ double quiet_deviation(const Findings& f, Index vertices, double edge) {
     return deviation * (1 - few * std::max(0.0, 1 - deviation / (0.07 * edge)));
 }
 
+/// 1 up to a tenth of the edges, 0 from two tenths on.
+double weak(double deviation, double edge) { return std::clamp(2 - deviation / (0.1 * edge), 0.0, 1.0); }
+
 /// From the quietest places' to that of all vertices, as far as they agree, otherwise the smaller; but tenths of few
 /// vertices do not tell much of strong noise.
 double agreed(double quiet, double all, Index vertices, double edge) {
     if (all > quiet) return quiet + (all - quiet) * std::clamp((quiet / all - 0.8) / 0.1, 0.0, 1.0);
-    const double weak = std::clamp(2 - quiet / (0.1 * edge), 0.0, 1.0);
-    return quiet + (all - quiet) * std::max(weak, std::min(1.0, vertices / 4000.0));
+    return quiet + (all - quiet) * std::max(weak(quiet, edge), std::min(1.0, vertices / 4000.0));
 }
 
 /// Fifth details have less of the shape than third ones and as much of the noise: what falls between them says how much
@@ -175,8 +177,7 @@ double with_fifth(double deviation, double most, const Findings& f, Index vertic
     if (vertices < enough) return deviation;
     const double fallen = std::max(0.0, f.low - f.low_fifth), square = deviation * deviation;
     const double by_fifth = std::min(f.low_fifth - left_by_fallen * fallen, most * most);
-    const double weak = std::clamp(2 - deviation / (0.1 * edge), 0.0, 1.0);
-    return deviation > 0 ? std::sqrt(square + weak / 2 * std::max(0.0, by_fifth - square)) : 0;
+    return deviation > 0 ? std::sqrt(square + weak(deviation, edge) / 2 * std::max(0.0, by_fifth - square)) : 0;
 }
 
 /// Certainty that details are noise: shape has peaks.

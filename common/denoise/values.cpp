@@ -2,6 +2,7 @@
 
 #include "base/decompositions.h"
 #include "base/parallel.h"
+#include "base/rows.h"
 #include "denoise/field_noise.h"
 #include "denoise/value_candidates.h"
 #include "denoise/value_impulses.h"
@@ -19,10 +20,6 @@ namespace {
 
 constexpr double most_correction = 1.2;   ///< of the variance of the noise
 constexpr std::size_t most_rows = 30000;  ///< vertices whose risk is summed up
-
-bool same_everywhere(const std::vector<double>& values, int width) {
-    return values.empty() || std::equal(values.begin() + width, values.end(), values.begin());
-}
 
 /// The largest noise that the distribution of the values allows, if that is clearly less than what was found: white
 /// noise of deviation s makes their density f so smooth that (log f)'' >= -1 / s^2 (what is left of Tweedie's formula,
@@ -352,7 +349,7 @@ DenoisedValues denoise_values(const ValueSurface& surface, const std::vector<dou
     DenoisedValues out;
     out.values = values;
     out.noise.assign(width, 0);
-    if (!(strength > 0) || same_everywhere(values, width)) return out;
+    if (!(strength > 0) || rows_are_equal(values, width)) return out;
     const ValueImpulses repaired = without_impulses(surface, values, width);
     out.impulses = repaired.count;
     out.values = repaired.values;

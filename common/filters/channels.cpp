@@ -1,6 +1,7 @@
 #include "filters/channels.h"
 
 #include "base/reduce.h"
+#include "base/rows.h"
 #include "mesh/validation.h"
 
 #include <algorithm>
@@ -91,9 +92,7 @@ Channels channels_of(const Layer& layer, std::size_t index, bool linear_light) {
 }
 
 /// False for what is the same at every vertex, as the colours are that hosts give a mesh when nobody else did.
-bool varies(const Attribute& a) {
-    return !a.values.empty() && !std::equal(a.values.begin() + a.width, a.values.end(), a.values.begin());
-}
+bool varies(const Attribute& a) { return !rows_are_equal(a.values, a.width); }
 
 /// @param has  whether the layer has an attribute of that kind
 template <class Has>
