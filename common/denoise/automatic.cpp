@@ -237,6 +237,7 @@ Positions denoise_automatically(const Faces& faces, const Positions& given, cons
     tick(0.25, "Choosing");
     Assumed assumed = assumed_of(found, options.strength, edge);
     assumed.by_kind = !fast;
+    assumed.within_surface = within.noisy;
     const NoiseClasses classes(found.varies ? assumed.deviation : std::vector<double>());
     const Choice choice = choose(faces, shifted(found.start, within, Shares()), at, near, assumed, classes,
                                  fast ? fast_patches : patches, [&](double f) { tick(0.25 + 0.4 * f, "Choosing"); });

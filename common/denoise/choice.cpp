@@ -18,6 +18,10 @@ constexpr double mostly = 0.5;    ///< weight of the normal field that speaks fo
 constexpr double sharply = 0.65;  ///< weight of what keeps creases from which on it is alone
 constexpr double small_weight = 0.04, small_weight_if_slow = 0.1;  ///< candidates with less are left out
 
+/// Factor for what is certainly white if folded faces or the sampling speak for noise as well: rough terrain, whose
+/// faces fold by nature, has nothing white.
+constexpr double white_if_within = 3;
+
 /// Turns of choosing for two kinds of surface, and vertices that each has at least.
 constexpr int kind_turns = 2;
 constexpr std::ptrdiff_t least_kind = 500;
@@ -113,7 +117,8 @@ Choice choice_of(const Tried& tried, const Assumed& noise, const std::vector<std
     Choice choice;
     choice.weights = weights_of(r, noise.stairs, noise.large);
     const double removed = white_share_removed(tried.surface, tried.near, tried.responses, choice.weights, core);
-    const double certain = noise.certain * std::max(noise.white, removed) / (noise.factor * noise.factor);
+    const double white = (noise.within_surface ? white_if_within : 1) * std::max(noise.white, removed);
+    const double certain = noise.certain * std::min(1.0, white) / (noise.factor * noise.factor);
     choice.safe = std::min(1.0, 2 * certain);
     choice.weights *=
         std::min(safe_share(r.edges, choice.weights, certain), safe_share(r.heights, choice.weights, certain));

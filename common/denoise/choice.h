@@ -11,6 +11,7 @@ struct Assumed {
     double factor = 1;              ///< see allowance()
     double certain = 1;             ///< share of the variance that there is at least
     double white = 1;               ///< see SurfaceNoise
+    bool within_surface = false;    ///< it shows there, too
     bool stairs = false;            ///< flat parts and creases are noise
     bool large = false;             ///< the mesh: see drop_small()
     int normal_steps = 3;           ///< see normal_steps()

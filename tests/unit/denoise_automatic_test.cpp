@@ -177,6 +177,15 @@ TEST(AutomaticDenoise, LeavesARoughSurfaceAsItIs) {
     EXPECT_LE(rms_distance(denoised(mesh), rough.positions), 0.051 * edge_of(rough));
 }
 
+// Terrain hides that the noise is white, but does not hide that faces are folded.
+TEST(AutomaticDenoise, NoiseThatFoldsFacesNeedBeLessWhite) {
+    const Mesh rough = rough_terrain(54);
+    const Mesh mesh = noisy(rough, Model::all_directions, 0.2);
+    const Error before = error_of(rough, mesh.positions), after = error_of(rough, denoised(mesh));
+    EXPECT_LT(after.angle, 0.7 * before.angle);
+    EXPECT_LT(after.rms, 0.73 * before.rms);
+}
+
 TEST(AutomaticDenoise, TellsCreasesFromOrganicShapes) {
     const Report part = run(layer_of(noisy(shapes::block(13), Model::along_normals, 0.1))).report;
     EXPECT_GT(number(part, "share_normal_field") + number(part, "share_guided_normals"), 0.99);
