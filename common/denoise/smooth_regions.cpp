@@ -16,9 +16,9 @@ namespace {
 
 constexpr double first_size = 16, growth = 1.5;  ///< vertices that a region has first, times the degree, and then
 constexpr double most_open = 600;                ///< vertices: where no patch is certain with as many there is none
-/// Vertices that floods may come to in vain, by those there are. The flattest faces are asked first: what is left then
-/// has hardly any patches.
-constexpr double most_vain = 80;
+/// Vertices that floods may come to in vain, by those there are, at most so many: a flood comes to as many on large
+/// meshes. The flattest faces are asked first: what is left then has hardly any patches.
+constexpr double most_vain = 80, most_vain_for = 25000;
 constexpr double least_cosine = 0.85;  ///< of the normals of a face, denoised, and its patch
 constexpr double off = 3;              ///< deviations that the mean square of a region may be off
 /// Share by which that of all regions together may be larger, and deviations beside it: shapes that only resemble
@@ -221,14 +221,15 @@ private:
             double now = 0;
             const Verdict is = verdict(r, degree, now);
             const double size = static_cast<double>(r.vertices.size());
-            const bool ends = size < most || r.vertices.size() <= last || (!best && most > most_open);
+            const bool ends = size < most || r.vertices.size() <= last;
             last = r.vertices.size();
             patch = r.patch;
             if (is == Verdict::right) {
                 best = std::move(r);
                 turns = now;
             }
-            if (ends || is == Verdict::wrong || (best && is == Verdict::open)) return best;
+            const bool uncertain = is == Verdict::open && (best || most > most_open);
+            if (ends || uncertain || is == Verdict::wrong) return best;
         }
     }
 
@@ -252,7 +253,8 @@ public:
 
     SmoothRegions all() {
         SmoothRegions out = none(ground_.faces.size());
-        double square = 0, freedom = 0, left = most_vain * static_cast<double>(ground_.places.size());
+        double square = 0, freedom = 0;
+        double left = most_vain * std::min(most_vain_for, static_cast<double>(ground_.places.size()));
         const std::vector<Index> order = ground_.flattest_first();
         for (std::size_t place = 0; place < order.size(); ++place) {
             if (!open(order[place])) continue;

@@ -21,7 +21,7 @@ struct SmoothRegions {
 /// @param asked      #F: 1 of faces that may be in regions
 /// @param given      the vertices as given
 /// @param positions  denoised as far as is known without patches
-/// Cost: O(#F log #F); floods in vain end at eighty times the vertices
+/// Cost: O(#F log #F); floods in vain end at eighty times the vertices, or two million
 SmoothRegions smooth_regions(const Faces& faces, const Incidence& at, const std::vector<std::uint8_t>& asked,
                              const Positions& given, const PlaceErrors& errors, const Positions& positions);
 

@@ -34,4 +34,22 @@ TEST(SmoothRegions, AreTheSameForAnyNumberOfThreads) {
     }
 }
 
+// A region whose patch is certain only at the size up to which that is waited for must go on growing.
+TEST(SmoothRegions, GrowOnWhereTheyBecomeCertainLate) {
+    const Mesh truth = shapes::plane(60);
+    const double edge = mean_edge_length(truth.faces, truth.positions), noise = 0.2 * edge;
+    const Incidence at = vertex_faces(truth.faces, static_cast<Index>(truth.positions.size()));
+    Positions given = truth.positions, positions = truth.positions;
+    shapes::Random random(5);
+    for (std::size_t v = 0; v < given.size(); ++v) {
+        given[v].z() += noise * gaussian(random);
+        positions[v].z() += 0.04 * noise * gaussian(random);
+    }
+    const PlaceErrors errors = PlaceErrors::of_noise(std::vector<double>(given.size(), noise));
+    const std::vector<std::uint8_t> asked(truth.faces.size(), 1);
+    const SmoothRegions regions = smooth_regions(truth.faces, at, asked, given, errors, positions);
+    EXPECT_EQ(regions.patch.size(), 1U);
+    EXPECT_EQ(std::count(regions.of_face.begin(), regions.of_face.end(), 0), static_cast<int>(truth.faces.size()));
+}
+
 }  // namespace multires
