@@ -2,6 +2,7 @@
 
 #include "base/median.h"
 #include "base/parallel.h"
+#include "denoise/crease_fit.h"
 #include "denoise/least_deviations.h"
 #include "measure/vertex_normals.h"
 
@@ -159,6 +160,11 @@ Positions without_impulses_beside_creases(const Faces& faces, const Positions& p
     Positions p = positions;
     const Heights heights(faces, positions, at, near);
     parallel_for(near.rows(), [&](Index v) {
+        const Vec3 move = to_crease(faces, positions, at, near, v);
+        if (move.squaredNorm() > 0) {
+            if (move.norm() <= highest) p[v] += move;
+            return;
+        }
         const Height h = heights.over_plane(v);
         if (h.above(certain) && std::abs(h.value) <= highest) p[v] -= h.value * h.normal;
     });

@@ -25,7 +25,7 @@ Positions without_weak_impulses(const Faces& faces, const Positions& positions, 
                                 const Neighbours& near, double& highest);
 
 /// Sets impulses beside creases back, which no quadric follows: off the plane of least absolute deviations by more than
-/// eight times the median of what those around are.
+/// eight times the median of what those around are; and those on creases to where two planes meet (to_crease()).
 /// @param highest  see without_weak_impulses(), > 0
 /// Cost: linear; parallel
 Positions without_impulses_beside_creases(const Faces& faces, const Positions& positions, const Incidence& at,

@@ -1,6 +1,8 @@
 #include "denoise/weak_impulses.h"
 
+#include "denoise/crease_fit.h"
 #include "denoise_fixtures.h"
+#include "measure/vertex_normals.h"
 
 namespace multires {
 
@@ -61,6 +63,26 @@ TEST(WeakImpulses, AreSetBackBesideCreases) {
         for (std::size_t v = 0; v < after.size(); ++v)
             EXPECT_TRUE(mesh.positions[v] != truth.positions[v] || (after[v] - before[v]).norm() < 1e-9);
     }
+}
+
+TEST(WeakImpulses, AreSetBackOnCreases) {
+    const Mesh truth = shapes::block(16);
+    const Incidence at = vertex_faces(truth.faces, static_cast<Index>(truth.positions.size()));
+    const Neighbours near = neighbours(truth.faces, at);
+    int nearer = 0, wrong = 0;
+    for (Index v = 0; v < near.rows(); ++v) {
+        EXPECT_EQ(to_crease(truth.faces, truth.positions, at, near, v), Vec3(0, 0, 0));
+        Positions p = truth.positions;
+        Vec3 normal = Vec3::Zero();
+        for (const Index f : at[v]) normal += area_vector(truth.faces[f], p).normalized();
+        p[v] += 0.1 * (p[near.vertex[near.offset[v]]] - p[v]).norm() * normal.normalized();
+        const Vec3 move = to_crease(truth.faces, p, at, near, v);
+        if (move.squaredNorm() == 0) continue;
+        const bool well = (p[v] + move - truth.positions[v]).norm() < 0.3 * (p[v] - truth.positions[v]).norm();
+        ++(well ? nearer : wrong);
+    }
+    EXPECT_GT(nearer, 50);
+    EXPECT_LE(20 * wrong, nearer);
 }
 
 TEST(WeakImpulses, ShapesAndGaussianNoiseHaveNone) {
