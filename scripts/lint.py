@@ -90,7 +90,7 @@ def batches(todo):
 
 def tidy(path, flags, *options):
     return subprocess.run(
-        ["clang-tidy", "--quiet", f"--config-file={ROOT}/.clang-tidy", *options, path, "--", *flags],
+        [ROOT / ".venv/bin/clang-tidy", "--quiet", f"--config-file={ROOT}/.clang-tidy", *options, path, "--", *flags],
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
         text=True,

@@ -13,7 +13,7 @@ packages=(build-essential ca-certificates ccache cmake ninja-build
     python3 python3-venv dpkg-dev debian-archive-keyring xz-utils
     libegl1 libgl1 libgl1-mesa-dri libglu1-mesa libopengl0 libxrender1 xvfb xauth)
 if [ "$what" != demo ]; then
-    packages+=(meshlab clang clang-format clang-tidy libclang-rt-dev chromium-headless-shell)
+    packages+=(meshlab clang clang-format libclang-rt-dev chromium-headless-shell)
 fi
 if [ "$what" = portable ]; then
     packages+=(g++-mingw-w64-x86-64-posix wine64 g++-aarch64-linux-gnu qemu-user libc++-dev libc++abi-dev)

@@ -170,7 +170,7 @@ private:
 
 int default_threads() {
     if (const char* text = std::getenv("MULTIRES_THREADS"))
-        if (const int n = std::atoi(text); n > 0) return std::min(n, 256);
+        if (const long n = std::strtol(text, nullptr, 10); n > 0) return static_cast<int>(std::min(n, 256L));
     return std::max(1u, std::thread::hardware_concurrency());
 }
 

@@ -173,7 +173,7 @@ Result denoise(const Layer& layer, const DenoiseOptions& options, Session& sessi
         for (double& c : doubt) c = 1 - c;
         blend(start.mesh.positions, doubt, after);
         if (movement.empty())
-            movement = doubt;
+            movement = std::move(doubt);
         else
             for (std::size_t i = 0; i < doubt.size(); ++i) movement[i] *= doubt[i];
     } else {
