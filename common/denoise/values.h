@@ -11,6 +11,7 @@ namespace multires {
 
 /// A surface with what all values on it share.
 struct ValueSurface {
+    const Faces& faces;
     const Positions& positions;
     Neighbours near;
     std::vector<double> weight;  ///< #entries: cotangent_weights()
@@ -40,7 +41,7 @@ struct DenoisedValues {
 /// 2. The noise is measured, channel by channel and, where it varies, at each vertex (field_noise.h).
 /// 3. Low passes, local Wiener filters and total variation are made (value_candidates.h).
 /// 4. Of each channel the convex blend of these and the input with the least estimated risk is taken (risk.h), if it is
-///    clearly nearer to the truth than the input.
+///    clearly nearer to the truth than the input. Of large meshes it is chosen on patches.
 /// @param values    #V by width, width at most 4, finite
 /// @param strength  >= 0; factor for the noise, 0 changes nothing
 /// @param rounding  no less than this is taken for noise
